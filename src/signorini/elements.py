@@ -1,0 +1,99 @@
+"""P1 and CR: the one place that knows how the two elements differ."""
+
+import difflib
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.exceptions import SceneError
+
+
+@dataclass(frozen=True)
+class Element:
+    """A piecewise affine element; its degrees of freedom are its values at the nodes.
+
+    ``basis[i]`` holds the values of local shape function i at the three vertices of a triangle.
+    """
+
+    name: str
+    title: str
+    basis: np.ndarray
+
+    def shape(self, barycentric):
+        """Values of the local shape functions, (3, q), at points of barycentric coordinates (3, q)."""
+        return self.basis @ barycentric
+
+    def vertex_values(self, mesh, u):
+        """Values of the discrete function at the vertices of each triangle, shape (3, nt)."""
+        return self.basis.T @ u[self.triangle_dofs(mesh)]
+
+
+class _P1(Element):
+    def size(self, mesh):
+        """Number of degrees of freedom."""
+        return mesh.number_of_vertices
+
+    def triangle_dofs(self, mesh):
+        """Global numbers of the local degrees of freedom, shape (3, nt)."""
+        return mesh.t
+
+    def boundary_dofs(self, mesh, label):
+        """Degrees of freedom on the closed part `label` of the boundary, increasing."""
+        return mesh.boundary_vertices(label)
+
+    def nodes(self, mesh, dofs):
+        """Coordinates of degrees of freedom, shape (2, len(dofs))."""
+        return mesh.p[:, dofs]
+
+    def skfem(self):
+        """The element as scikit-fem knows it."""
+        from skfem import ElementTriP1
+
+        return ElementTriP1()
+
+
+class _CR(Element):
+    def size(self, mesh):
+        """Number of degrees of freedom."""
+        return mesh.number_of_facets
+
+    def triangle_dofs(self, mesh):
+        """Global numbers of the local degrees of freedom, shape (3, nt)."""
+        return mesh.t2f
+
+    def boundary_dofs(self, mesh, label):
+        """Degrees of freedom on the part `label` of the boundary, increasing."""
+        return mesh.boundary_facets(label)
+
+    def nodes(self, mesh, dofs):
+        """Coordinates of degrees of freedom, shape (2, len(dofs)): midpoints of facets."""
+        ends = mesh.facets[:, dofs]
+        return 0.5 * (mesh.p[:, ends[0]] + mesh.p[:, ends[1]])
+
+    def skfem(self):
+        """The element as scikit-fem knows it."""
+        from skfem import ElementTriCR
+
+        return ElementTriCR()
+
+
+# The CR function of the facet (i, j) is 1 at its two ends and -1 at the opposite vertex; facets run 01, 12, 02.
+ELEMENTS = {
+    "P1": _P1("P1", "conforming P1", np.eye(3)),
+    "CR": _CR("CR", "Crouzeix-Raviart", np.array([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])),
+}
+
+
+def element(name):
+    """Look an element up by name.
+
+    Raises
+    ------
+    SceneError
+        If there is none of that name.
+    """
+    if name not in ELEMENTS:
+        near = difflib.get_close_matches(str(name).upper(), ELEMENTS, n=1, cutoff=0.3)
+        hint = f"; did you mean {near[0]}?" if near else ""
+        raise SceneError(f"elements: unknown element {name!r}; known: {', '.join(ELEMENTS)}{hint}")
+    return ELEMENTS[name]

@@ -1,0 +1,53 @@
+"""Piecewise affine functions on nested meshes: from a mesh to the one it was refined from, and back.
+
+A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the vertices of each
+triangle. The children of a triangle are listed as `Grid.children` lists them.
+"""
+
+import numpy as np
+
+# Values of the parent's affine function at the vertices of child k, from its values at its own vertices: (4, 3, 3).
+# Local vertex i of child k < 3 is the midpoint of vertices i and k, of child 3 that of the two others than i.
+PROLONG = np.stack([0.5 * (np.eye(3) + np.eye(3)[k]) for k in range(3)] + [0.5 * (np.ones((3, 3)) - np.eye(3))])
+
+_MASS = (np.ones((3, 3)) + np.eye(3)) / 12.0  # of an affine function by its vertex values, on a triangle of area 1
+
+# L2 projection of four affine children onto one affine parent: inv(M) sum_k P_k' M / 4, (4, 3, 3).
+PROJECT = np.stack([np.linalg.solve(_MASS, P.T @ _MASS) / 4.0 for P in PROLONG])
+
+
+def prolong(mesh, values):
+    """A function on ``mesh.coarser()`` as one on `mesh`: (3, nt / 4) to (3, nt)."""
+    return mesh.from_children(np.stack([P @ values for P in PROLONG]))
+
+
+def project(mesh, values):
+    """L2 projection of a function on `mesh` onto ``mesh.coarser()``.
+
+    Returns
+    -------
+    projection : ndarray, shape (3, nt / 4)
+    rest : float
+        Squared L2 norm of the difference.
+    """
+    family = mesh.children(values)
+    projection = sum(P @ child for P, child in zip(PROJECT, family, strict=True))
+    for P, child in zip(PROLONG, family, strict=True):
+        child -= P @ projection
+    areas = np.broadcast_to(0.25 * np.asarray(mesh.coarser().area), projection.shape[1:])
+    return projection, sum(squared_l2(areas, child) for child in family)
+
+
+def squared_l2(areas, values):
+    """Squared L2 norm of a piecewise affine function by its vertex values (3, nt); exact."""
+    density = (values * values).sum(axis=0) + values.sum(axis=0) ** 2
+    return float(areas @ density if np.ndim(areas) else areas * density.sum()) / 12.0
+
+
+def gradients(mesh, values):
+    """Gradient of a piecewise affine function, shape (2, nt), unit of the values per length."""
+    a, b, c = (mesh.p[:, v] for v in mesh.t)
+    ab, ac = b - a, c - a
+    twice_area = ab[0] * ac[1] - ab[1] * ac[0]
+    d1, d2 = (values[1] - values[0]) / twice_area, (values[2] - values[0]) / twice_area
+    return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])

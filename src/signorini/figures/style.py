@@ -1,0 +1,83 @@
+"""How every figure looks, and how it is written to a file."""
+
+import logging
+from pathlib import Path
+
+import matplotlib
+from matplotlib.figure import Figure
+
+from signorini.storage import replacing
+
+TEXT_WIDTH = 150 / 25.4  # inches; \textwidth of paper/main.tex, so that figures are included unscaled
+
+BLACK, GREY, FAINT = "black", "0.35", "0.75"
+ACCENT = "#2a6ebb"  # prints as a middle grey
+
+STYLE = {
+    "font.family": "serif",
+    "font.serif": ["cmr10"],
+    "mathtext.fontset": "cm",
+    "axes.formatter.use_mathtext": True,  # cmr10 has no minus sign
+    "axes.unicode_minus": False,
+    "font.size": 9,
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "axes.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "ytick.minor.width": 0.3,
+    "ytick.minor.size": 1.5,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 4.5,
+    "pdf.fonttype": 42,
+    "savefig.dpi": 200,
+}
+
+logging.getLogger("fontTools").setLevel(logging.ERROR)  # it warns of the age of cmr10
+
+FORMATS = {".pdf": {"CreationDate": None}, ".png": {}}
+
+
+def new_figure(width, height):
+    """Return an empty figure of `width` times `height` inches in the house style.
+
+    Parameters
+    ----------
+    width, height : float
+        Size in inches.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with matplotlib.rc_context(STYLE):
+        return Figure(figsize=(width, height), layout="none")
+
+
+def save_figure(figure, path):
+    """Write a figure as PDF or PNG (200 dpi): same figure, same bytes; never half a file.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        What to write.
+    path : path-like
+        Target, ending in ``.pdf`` or ``.png``; replaced in one step if it exists.
+
+    Raises
+    ------
+    ValueError
+        If the suffix is neither of the two.
+    StorageError
+        If the file cannot be written; the old one is then as it was.
+    """
+    path = Path(path)
+    if path.suffix not in FORMATS:
+        raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
+    with matplotlib.rc_context(STYLE), replacing(path, "wb") as stream:
+        figure.savefig(stream, format=path.suffix[1:], metadata=FORMATS[path.suffix])

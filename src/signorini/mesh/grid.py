@@ -1,0 +1,229 @@
+"""A uniform triangulation of a rectangle, known by arithmetic: nothing is searched, sorted or stored.
+
+Vertices, triangles and facets are numbered as scikit-fem numbers them, so a vector of degrees of freedom
+means the same on ``grid.skfem`` (tests hold the two together).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+SIDES = ("bottom", "right", "top", "left")
+
+# Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
+CORNERS = {
+    "falling": (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0))),
+    "rising": (((1, 0), (1, 1), (0, 0)), ((0, 1), (0, 0), (1, 1))),
+}
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Rectangle of ``nx`` by ``ny`` cells, each cut into two triangles by one diagonal.
+
+    Parameters
+    ----------
+    nx, ny : int
+        Cells along x and y.
+    origin, size : tuple of float
+        Lower left corner and side lengths, in the user's unit of length.
+    diagonal : {"falling", "rising"}
+        From top left to bottom right (the line x + y = const), or from bottom left to top right.
+    labels : tuple of str
+        ``"dirichlet"``, ``"contact"`` or ``"neumann"`` for each of `SIDES`.
+    """
+
+    nx: int
+    ny: int
+    origin: tuple[float, float]
+    size: tuple[float, float]
+    diagonal: str
+    labels: tuple[str, str, str, str]
+
+    @property
+    def corners(self):
+        """Corners of the two triangles of a cell, (2, 3, 2) nested tuples of 0 and 1."""
+        return CORNERS[self.diagonal]
+
+    @property
+    def spacing(self):
+        """Side lengths (hx, hy) of a cell, unit of length."""
+        return self.size[0] / self.nx, self.size[1] / self.ny
+
+    @property
+    def area(self):
+        """Area of each triangle, a number, unit of length squared."""
+        hx, hy = self.spacing
+        return 0.5 * hx * hy
+
+    @property
+    def number_of_vertices(self):
+        """Number of vertices."""
+        return (self.nx + 1) * (self.ny + 1)
+
+    @property
+    def number_of_facets(self):
+        """Number of edges."""
+        return self.ny * (3 * self.nx + 1) + self.nx
+
+    @property
+    def number_of_triangles(self):
+        """Number of triangles."""
+        return 2 * self.nx * self.ny
+
+    @cached_property
+    def x(self):
+        """Abscissae of the vertex columns, shape (nx + 1,)."""
+        return self.origin[0] + self.size[0] * (np.arange(self.nx + 1) / self.nx)
+
+    @cached_property
+    def y(self):
+        """Ordinates of the vertex rows, shape (ny + 1,)."""
+        return self.origin[1] + self.size[1] * (np.arange(self.ny + 1) / self.ny)
+
+    @property
+    def p(self):
+        """Vertices, shape (2, number_of_vertices), x running fastest."""
+        x, y = np.meshgrid(self.x, self.y)
+        return np.stack([x.ravel(), y.ravel()])
+
+    @property
+    def vertex_numbers(self):
+        """Vertex numbers as an array of rows, shape (ny + 1, nx + 1)."""
+        return np.arange(self.number_of_vertices, dtype=np.int32).reshape(self.ny + 1, self.nx + 1)
+
+    @property
+    def t(self):
+        """Vertices of each triangle, shape (3, nt): all first triangles of the cells, then all second."""
+        v = self.vertex_numbers
+        return np.stack([np.concatenate([self.window(v, kind[k]).ravel() for kind in self.corners]) for k in range(3)])
+
+    def window(self, rows, corner):
+        """The values of a vertex array at one corner of every cell, shape (ny, nx), a view."""
+        i, j = corner
+        return rows[j : j + self.ny, i : i + self.nx]
+
+    @cached_property
+    def _positions(self):
+        """Where the edges leaving a vertex row stand in it: horizontal, vertical, diagonal."""
+        i = np.arange(self.nx + 1)
+        if self.diagonal == "rising":
+            return 3 * i[:-1], 3 * i + np.where(i < self.nx, 1, 0), 3 * i[:-1] + 2
+        h = np.maximum(3 * i - 1, 0)[:-1]
+        v = 3 * i + np.where(i < self.nx, 1, 0)
+        d = 3 * i[1:] - np.where(i[1:] == self.nx, 1, 0)
+        return h, v, d
+
+    def split_edges(self, u):
+        """Sort a vector over the facets by direction.
+
+        Parameters
+        ----------
+        u : ndarray, shape (number_of_facets,)
+
+        Returns
+        -------
+        horizontal, vertical, diagonal : ndarray
+            Shapes (ny + 1, nx), (ny, nx + 1) and (ny, nx).
+        """
+        width = 3 * self.nx + 1
+        rows = u[: self.ny * width].reshape(self.ny, width)
+        h, v, d = self._positions
+        return np.concatenate([rows[:, h], u[None, self.ny * width :]]), rows[:, v], rows[:, d]
+
+    def join_edges(self, horizontal, vertical, diagonal):
+        """Undo `split_edges`."""
+        width = 3 * self.nx + 1
+        u = np.empty(self.number_of_facets, dtype=horizontal.dtype)
+        rows = u[: self.ny * width].reshape(self.ny, width)
+        h, v, d = self._positions
+        rows[:, h], rows[:, v], rows[:, d] = horizontal[:-1], vertical, diagonal
+        u[self.ny * width :] = horizontal[-1]
+        return u
+
+    @property
+    def t2f(self):
+        """Facets of each triangle, shape (3, nt), in scikit-fem's order (01, 12, 02)."""
+        h, v, d = self.split_edges(np.arange(self.number_of_facets, dtype=np.int32))
+        first, second = (h[:-1], v[:, :-1]), (h[1:], v[:, 1:])
+        if self.diagonal == "rising":
+            first, second = (v[:, 1:], h[:-1]), (v[:, :-1], h[1:])
+        pairs = zip((first[0], d, first[1]), (second[0], d, second[1]), strict=True)
+        return np.stack([np.concatenate([a.ravel(), b.ravel()]) for a, b in pairs])
+
+    @property
+    def facets(self):
+        """End vertices of each facet, the smaller number first, shape (2, number_of_facets)."""
+        v = self.vertex_numbers
+        a, b = (v[:-1, 1:], v[1:, :-1]) if self.diagonal == "falling" else (v[:-1, :-1], v[1:, 1:])
+        ends = ((v[:, :-1], v[:-1], a), (v[:, 1:], v[1:], b))
+        return np.stack([self.join_edges(*end) for end in ends])
+
+    def side_vertices(self, side):
+        """Vertex numbers along a side, by increasing coordinate."""
+        v = self.vertex_numbers
+        return {"bottom": v[0], "top": v[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+
+    def side_facets(self, side):
+        """Facet numbers along a side, by increasing coordinate."""
+        h, v, _ = self.split_edges(np.arange(self.number_of_facets, dtype=np.int32))
+        return {"bottom": h[0], "top": h[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+
+    def sides(self, label):
+        """The sides that carry `label`, a tuple of names."""
+        return tuple(side for side, name in zip(SIDES, self.labels, strict=True) if name == label)
+
+    def boundary_vertices(self, label):
+        """Vertices on the closed sides that carry `label`, increasing, each once."""
+        found = [self.side_vertices(side) for side in self.sides(label)]
+        return np.unique(np.concatenate(found)) if found else np.zeros(0, dtype=np.int32)
+
+    def boundary_facets(self, label):
+        """Facets on the sides that carry `label`, increasing."""
+        found = [self.side_facets(side) for side in self.sides(label)]
+        return np.sort(np.concatenate(found)) if found else np.zeros(0, dtype=np.int32)
+
+    @cached_property
+    def skfem(self):
+        """The same triangulation as a scikit-fem mesh, its boundaries named."""
+        from skfem import MeshTri
+
+        names = {label: self.boundary_facets(label) for label in sorted(set(self.labels))}
+        return MeshTri(self.p, self.t, sort_t=False).with_boundaries(names)
+
+    def coarser(self):
+        """The grid of half as many cells along each side, or None where a count is odd."""
+        if self.nx % 2 or self.ny % 2:
+            return None
+        return Grid(self.nx // 2, self.ny // 2, self.origin, self.size, self.diagonal, self.labels)
+
+    def children(self, values):
+        """Values on the four children of every triangle of `coarser()`.
+
+        Parameters
+        ----------
+        values : ndarray, shape (m, nt)
+            Values on this grid's triangles, for instance at their three vertices.
+
+        Returns
+        -------
+        ndarray, shape (4, m, nt / 4)
+            Children 0 to 2 hold the parent's vertices, child 3 is the middle one. Local vertex i of child k
+            is the midpoint of the parent's vertices i and k; of child 3, that of the two others than i.
+        """
+        cells = values.reshape(-1, 2, self.ny, self.nx)
+        family = np.empty((4, values.shape[0], 2, self.ny // 2, self.nx // 2), dtype=values.dtype)
+        for kind, corners in enumerate(self.corners):
+            for child, (i, j) in enumerate((*corners, corners[0])):
+                family[child, :, kind] = cells[:, 1 - kind if child == 3 else kind, j::2, i::2]
+        return family.reshape(4, values.shape[0], -1)
+
+    def from_children(self, family):
+        """Undo `children`: values on this grid's triangles, shape (m, nt), from (4, m, nt / 4)."""
+        cells = np.empty((family.shape[1], 2, self.ny, self.nx), dtype=family.dtype)
+        family = family.reshape(4, family.shape[1], 2, self.ny // 2, self.nx // 2)
+        for kind, corners in enumerate(self.corners):
+            for child, (i, j) in enumerate((*corners, corners[0])):
+                cells[:, 1 - kind if child == 3 else kind, j::2, i::2] = family[child, :, kind]
+        return cells.reshape(cells.shape[0], -1)

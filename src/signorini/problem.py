@@ -1,0 +1,129 @@
+"""From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on contact dofs."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.elements import element as find_element
+from signorini.exceptions import SceneError
+from signorini.load import assemble_load
+from signorini.mesh import Domain, Grid
+from signorini.stencil import apply_stiffness
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A discrete Signorini problem; equation (2.6) of the paper, or its conforming counterpart.
+
+    Parameters
+    ----------
+    element : {"P1", "CR"}
+    mesh : Grid or Triangulation
+    b : ndarray, shape (ndof,)
+        Load.
+    contact : ndarray of int, shape (nc,)
+        Degrees of freedom under the constraint, increasing.
+    lower : ndarray, shape (nc,)
+        The obstacle at them, unit of u.
+    fixed : ndarray of int, shape (nd,)
+        Degrees of freedom on the Dirichlet part, increasing.
+    fixed_values : ndarray, shape (nd,)
+        Their values, unit of u.
+    """
+
+    element: str
+    mesh: object
+    b: np.ndarray
+    contact: np.ndarray
+    lower: np.ndarray
+    fixed: np.ndarray
+    fixed_values: np.ndarray
+
+    @cached_property
+    def A(self):
+        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), dimensionless; assembled when first asked for."""
+        return assemble_stiffness(self.mesh, find_element(self.element))
+
+    @cached_property
+    def free(self):
+        """Degrees of freedom that are not fixed, increasing."""
+        mask = np.ones(self.b.size, dtype=bool)
+        mask[self.fixed] = False
+        return np.flatnonzero(mask)
+
+    @cached_property
+    def grid(self):
+        """The mesh where it is a uniform `Grid`, else None."""
+        return self.mesh if isinstance(self.mesh, Grid) else None
+
+    def apply(self, u):
+        """A @ u, without the matrix where the mesh is a grid and the matrix has not been built."""
+        if self.grid is not None and "A" not in self.__dict__:
+            return apply_stiffness(self.grid, self.element, u)
+        return self.A @ u
+
+
+def discretize(scene, element, n):
+    """Discretise a scene.
+
+    Parameters
+    ----------
+    scene : Scene or ProblemStatement
+        What is asked; see `load_scene`.
+    element : {"P1", "CR"}
+    n : int
+        Level, n = 1/h.
+
+    Returns
+    -------
+    Problem
+
+    Raises
+    ------
+    SceneError, MeshError, FormulaError
+        Naming the field, its value and the remedy.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> scene = signorini.load_scene("config/scenes/paper.yaml")
+    >>> problem = signorini.discretize(scene, "CR", 8)
+    >>> problem.contact.size
+    8
+    """
+    statement = getattr(scene, "problem", scene)
+    find_element(element)
+    if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
+        raise SceneError(f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8")
+    domain = Domain.from_mapping(statement.domain, statement.boundary)
+    return discretize_on(domain.level(int(n)), element, statement)
+
+
+def discretize_on(mesh, element, statement):
+    """Discretise a problem statement on a given triangulation; see `discretize`."""
+    kind = find_element(element)
+    data = statement.data
+    fixed = kind.boundary_dofs(mesh, "dirichlet")
+    contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
+    return Problem(
+        element=element,
+        mesh=mesh,
+        b=assemble_load(mesh, kind, data.f, data.g, statement.load_quadrature),
+        contact=contact,
+        lower=data.obstacle(*kind.nodes(mesh, contact)),
+        fixed=fixed,
+        fixed_values=data.dirichlet(*kind.nodes(mesh, fixed)),
+    )
+
+
+def assemble_stiffness(mesh, element):
+    """Stiffness matrix of the (broken) Dirichlet form by scikit-fem, CSR (ndof, ndof), dimensionless."""
+    from skfem import Basis, BilinearForm
+    from skfem.helpers import dot, grad
+
+    @BilinearForm
+    def laplace(u, v, _):
+        return dot(grad(u), grad(v))
+
+    return laplace.assemble(Basis(mesh.skfem, element.skfem(), intorder=1)).tocsr()

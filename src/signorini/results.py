@@ -1,0 +1,63 @@
+"""Solutions as files."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.storage import read_npz, write_npz
+
+
+@dataclass(frozen=True, eq=False)
+class StoredSolution:
+    """A solution as `read_solution` returns it; see `solvers.Solution` for what the parts mean.
+
+    ``dofs`` counts the free degrees of freedom; ``contact`` and ``lower`` are those of the `Problem`; ``h`` has the
+    unit of length.
+    """
+
+    element: str
+    n: int
+    h: float
+    dofs: int
+    u: np.ndarray
+    multiplier: np.ndarray
+    active: np.ndarray
+    contact: np.ndarray
+    lower: np.ndarray
+    residual: float
+    status: str
+    iterations: int
+    method: str
+
+
+def write_solution(path, problem, solution, n, h):
+    """Store a solution of `problem` at level n, mesh width h."""
+    write_npz(
+        path,
+        kind="solution",
+        element=problem.element,
+        n=n,
+        h=h,
+        dofs=problem.free.size,
+        u=solution.u,
+        multiplier=solution.multiplier,
+        active=solution.active,
+        contact=problem.contact,
+        lower=problem.lower,
+        residual=solution.residual,
+        status=solution.status,
+        iterations=solution.iterations,
+        method=solution.method,
+    )
+
+
+def read_solution(path):
+    """Read what `write_solution` stored.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, truncated, altered, or not a solution.
+    """
+    arrays = read_npz(path, kind="solution")
+    return StoredSolution(**{key: value if value.ndim else value.item() for key, value in arrays.items()})

@@ -1,0 +1,157 @@
+"""A scene: one whole question, read from a file and validated before any work is done."""
+
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+from signorini.exceptions import FormulaError, SceneError
+from signorini.formula import Formula
+from signorini.schema import validated
+from signorini.strict_yaml import load_yaml
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+
+
+@dataclass(frozen=True)
+class Data:
+    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle."""
+
+    f: Formula
+    g: Formula
+    dirichlet: Formula
+    obstacle: Formula
+
+
+@dataclass(frozen=True)
+class ProblemStatement:
+    """What a discretisation depends on, and nothing else of a scene.
+
+    Parameters
+    ----------
+    domain, boundary : dict
+        The sections of these names of a scene.
+    data : Data
+    load_quadrature : str or int
+    """
+
+    domain: dict
+    boundary: dict
+    data: Data
+    load_quadrature: str | int
+
+    @classmethod
+    def from_mapping(cls, mapping):
+        """Build from a mapping with the keys domain, boundary, data and load_quadrature."""
+        data = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items()}
+        return cls(mapping["domain"], mapping["boundary"], Data(**data), mapping["load_quadrature"])
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A validated scene.
+
+    Parameters
+    ----------
+    name : str
+        The file's name without ending.
+    document : dict
+        The file's content with every default filled in.
+    problem : ProblemStatement
+    """
+
+    name: str
+    document: dict
+    problem: ProblemStatement
+
+    def section(self, *keys):
+        """The named parts of the document, as a new dict."""
+        return {key: self.document[key] for key in keys}
+
+    @property
+    def elements(self):
+        """Elements compared, a list of names."""
+        return self.document["elements"]
+
+    @property
+    def levels(self):
+        """Levels n = 1/h, increasing."""
+        return self.document["levels"]
+
+    @property
+    def truth(self):
+        """The section ``truth``."""
+        return self.document["truth"]
+
+
+@cache
+def scene_schema():
+    """The JSON schema of a scene, a dict."""
+    return load_yaml(Path(__file__).with_name("scene.schema.yaml"))
+
+
+def load_scene(path):
+    """Read and validate a scene file.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    SceneError, FormulaError
+        One line that names the file, the field, the value and the remedy.
+    """
+    path = Path(path)
+    check_name(path.stem)
+    document = validated(load_yaml(path), scene_schema(), path)
+    try:
+        _cross_check(document)
+        problem = ProblemStatement.from_mapping(document)
+    except (SceneError, FormulaError) as error:
+        raise type(error)(f"{path}: {error}") from None
+    return Scene(path.stem, document, problem)
+
+
+def check_name(name):
+    """Refuse a scene name that could leave its folder or trouble a shell."""
+    if not _NAME.fullmatch(name):
+        raise SceneError(
+            f"scene name {name[:80]!r} is not valid; use 1 to 64 letters, digits, '-' and '_', "
+            "starting with a letter or digit"
+        )
+
+
+def _cross_check(document):
+    domain, levels, truth = document["domain"], document["levels"], document["truth"]
+    numbers = [("origin", v) for v in domain["origin"]] + [("size", v) for v in domain["size"]]
+    for key, value in numbers:
+        if not math.isfinite(value) or (key == "size" and value <= 0):
+            raise SceneError(f"domain.{key}: {value} is not valid; it must be finite{', positive' * (key == 'size')}")
+    if any(b <= a for a, b in pairwise(levels)):
+        raise SceneError(f"levels: {levels} is not increasing; list each level once, coarsest first")
+    if truth["kind"] == "reference":
+        _check_reference(levels, truth)
+    for output in ("rates", "table", "figures"):
+        if output in document["outputs"] and truth["kind"] == "none" and output != "figures":
+            raise SceneError(f"outputs: {output} needs a truth to compare with; set truth.kind, or drop {output}")
+
+
+def _check_reference(levels, truth):
+    if "n" not in truth:
+        raise SceneError("truth.n: missing; give the level of the reference, for instance 512")
+    if truth["n"] < levels[-1]:
+        raise SceneError(f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n")
+    for n in levels:
+        ratio, rest = divmod(truth["n"], n)
+        if rest or ratio & (ratio - 1):
+            raise SceneError(
+                f"levels: {n} does not nest in the reference, truth.n = {truth['n']}; truth.n must be a power of two "
+                f"times every level, for instance {n * 2 ** max(0, (truth['n'] // n).bit_length() - 1)}"
+            )

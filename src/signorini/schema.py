@@ -1,0 +1,105 @@
+"""Validation of parsed YAML against a JSON schema, with defaults filled in and errors a person can act on."""
+
+import copy
+import difflib
+import json
+
+from signorini.exceptions import SceneError
+
+
+def validated(document, schema, source):
+    """Check a document and fill in its defaults.
+
+    Parameters
+    ----------
+    document : object
+        What `strict_yaml.load_yaml` returned; not changed.
+    schema : dict
+        JSON schema, draft 2020-12.
+    source : str or Path
+        The file to name in errors.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    SceneError
+        One line that names the file, the field, the value and the remedy.
+    """
+    from jsonschema import Draft202012Validator
+
+    if not isinstance(document, dict):
+        raise SceneError(f"{source}: expected 'key: value' lines at the top, found {_shown(document)}")
+    error = min(Draft202012Validator(schema).iter_errors(document), key=_order, default=None)
+    if error is not None:
+        raise SceneError(f"{source}: {_explain(error)}")
+    document = copy.deepcopy(document)
+    _fill(document, schema)
+    return document
+
+
+def _order(error):
+    return error.validator != "additionalProperties", len(error.absolute_path), str(list(error.absolute_path))
+
+
+def _fill(document, schema):
+    for key, part in schema.get("properties", {}).items():
+        if key not in document and "default" in part:
+            document[key] = copy.deepcopy(part["default"])
+        if isinstance(document.get(key), dict):
+            _fill(document[key], part)
+
+
+def _explain(error):
+    field = ".".join(str(part) for part in error.absolute_path)
+    if error.validator == "additionalProperties":
+        known = list(error.schema["properties"])
+        key = next(key for key in error.instance if key not in known)
+        return f"{field + '.' if field else ''}{key}: unknown key; {nearest(key, known)}"
+    if error.validator == "required":
+        missing = next(key for key in error.validator_value if key not in error.instance)
+        return f"{field + '.' if field else ''}{missing}: missing; add it ({_describe(error.schema, missing)})"
+    remedy = {
+        "enum": lambda: nearest(error.instance, [str(v) for v in error.validator_value]),
+        "oneOf": lambda: f"expected {_alternatives(error.schema)}",
+        "type": lambda: f"expected {_TYPES.get(error.validator_value, error.validator_value)}",
+        "minimum": lambda: f"must be at least {error.validator_value}",
+        "maximum": lambda: f"must be at most {error.validator_value}",
+        "minItems": lambda: f"needs at least {error.validator_value} entries",
+        "maxItems": lambda: f"takes at most {error.validator_value} entries",
+        "uniqueItems": lambda: "list each entry once",
+    }.get(error.validator, lambda: error.message)()
+    return f"{field}: {_shown(error.instance)} is not valid; {remedy}"
+
+
+_TYPES = {
+    "integer": "a whole number",
+    "number": "a number",
+    "string": "text",
+    "array": "a list, [a, b, ...]",
+    "object": "a section of 'key: value' lines",
+}
+
+
+def _alternatives(schema):
+    return " or ".join(
+        ", ".join(map(str, part["enum"])) if "enum" in part else _TYPES.get(part.get("type"), "another value")
+        for part in schema["oneOf"]
+    )
+
+
+def _describe(schema, key):
+    return schema["properties"][key].get("description", "required").split(".")[0].strip()
+
+
+def _shown(value):
+    text = json.dumps(value, default=str)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def nearest(word, known):
+    """A hint: the nearest of the known words, and all of them."""
+    near = difflib.get_close_matches(str(word), known, n=1, cutoff=0.5)
+    return (f"did you mean {near[0]}? " if near else "") + f"known: {', '.join(known)}"

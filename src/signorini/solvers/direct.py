@@ -1,0 +1,158 @@
+"""The direct route: one sparse factorisation, the inequality on the condensed contact matrix. The others' oracle.
+
+The dofs are ordered by nested dissection with the contact dofs last, so that the trailing block of the factors
+is the Schur complement S on them: neither a second factorisation nor a solve per contact dof is needed.
+A multiple of the identity added on the contact dofs, and taken off again, keeps the factorisation regular where
+only the inequality holds the body (no Dirichlet part).
+"""
+
+import numpy as np
+
+from signorini.elements import element as find_element
+from signorini.exceptions import SolverError
+from signorini.solvers.contact import DenseContact, solve_contact
+
+_LEAF = 8
+
+
+def solve_direct(problem, guess=None):
+    """Solve any problem; arguments, results and errors as in `solvers.fourier.solve_fourier`."""
+    u = np.zeros_like(problem.b)
+    u[problem.fixed] = problem.fixed_values
+    if not problem.free.size:
+        return u, np.zeros(0, dtype=bool), 0
+    u[problem.contact] = problem.lower
+    condensed = Condensed(problem)
+    load = problem.b - problem.A @ u
+    if not problem.contact.size:
+        return (
+            _refined(problem, condensed, u + condensed.extend(load, np.zeros(0))),
+            np.zeros(0, dtype=bool),
+            0,
+        )
+    operator = DenseContact(condensed.S)
+    result = solve_contact(operator, condensed.reduce(load), guess=guess, singular=problem.fixed.size == 0)
+    u += condensed.extend(load, result.w)
+    u = _refined(problem, condensed, u, result.active, operator)
+    u[problem.contact[result.active]] = problem.lower[result.active]
+    return u, result.active, result.iterations
+
+
+def _refined(problem, condensed, u, active=None, operator=None):
+    """One step of iterative refinement with the contact set held."""
+    residual = problem.b - problem.A @ u
+    w = np.zeros(problem.contact.size)
+    if active is not None and not active.all():
+        w[~active] = operator.solve_free(~active, condensed.reduce(residual)[~active])
+    return u + condensed.extend(residual, w)
+
+
+class Condensed:
+    """A problem's stiffness matrix, factorised once, and its Schur complement on the contact dofs.
+
+    Attributes
+    ----------
+    S : ndarray, shape (nc, nc)
+        A with all other free dofs eliminated, dimensionless.
+
+    Raises
+    ------
+    SolverError
+        If the matrix is not positive definite with the contact dofs held.
+    """
+
+    def __init__(self, problem):
+        from scipy.sparse import diags_array
+        from scipy.sparse.linalg import splu
+
+        self.size, self.contact = problem.b.size, problem.contact
+        self.count = problem.contact.size
+        is_contact = np.zeros(self.size, dtype=bool)
+        is_contact[problem.contact] = True
+        interior = problem.free[~is_contact[problem.free]]
+        nodes = find_element(problem.element).nodes(problem.mesh, interior)
+        order = dissection_order(problem.A[interior][:, interior], nodes)
+        self.order = np.concatenate([interior[order], problem.contact])
+        A = problem.A[self.order][:, self.order].tocsc()
+        self.shift = 2.0 ** np.ceil(np.log2(A.diagonal().max()))
+        shift = np.zeros(A.shape[0])
+        shift[A.shape[0] - self.count :] = self.shift
+        try:
+            self.factors = splu(
+                (A + diags_array(shift)).tocsc(),
+                permc_spec="NATURAL",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise SolverError(
+                "singular stiffness matrix: without contact, part of the boundary must be dirichlet"
+            ) from error
+        if np.any(self.factors.perm_r != np.arange(A.shape[0])):
+            raise SolverError("stiffness matrix is not positive definite: is the mesh degenerate?")
+        self.S_shifted = self._trailing_block()
+        self.S = self.S_shifted - self.shift * np.eye(self.count)
+
+    def _trailing_block(self):
+        if not self.count:
+            return np.zeros((0, 0))
+        L, U = self.factors.L[-self.count :], self.factors.U[-self.count :]
+        S = L[:, -self.count :].toarray() @ U[:, -self.count :].toarray()
+        return 0.5 * (S + S.T)
+
+    def reduce(self, load):
+        """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,)."""
+        rhs = load[self.order]
+        rhs[rhs.size - self.count :] = 0.0
+        return load[self.contact] + self.S_shifted @ self.factors.solve(rhs)[rhs.size - self.count :]
+
+    def extend(self, load, w):
+        """The free dofs in equilibrium with `load` when the contact dofs equal `w`; zero on the fixed ones."""
+        rhs = load[self.order]
+        split = rhs.size - self.count
+        if self.count:
+            rhs[split:] = self.S_shifted @ w + load[self.contact] - self.reduce(load)
+        u = np.zeros(self.size)
+        u[self.order] = self.factors.solve(rhs)
+        u[self.contact] = w
+        return u
+
+
+def dissection_order(A, nodes):
+    """Order the rows of a symmetric matrix by nested dissection of their coordinates (George 1973).
+
+    The coordinate ranks' binary digits bisect the set again and again, along x and y in turn; an entry that
+    joins two halves makes its row in the first half part of their separator, ordered after both.
+
+    Parameters
+    ----------
+    A : sparse array, shape (m, m)
+    nodes : ndarray, shape (2, m)
+
+    Returns
+    -------
+    ndarray of int, shape (m,)
+    """
+    count = A.shape[0]
+    if count <= _LEAF:
+        return np.arange(count)
+    depth = int(np.ceil(np.log2(count / _LEAF)))
+    digits = _bisection_digits(nodes, depth)
+    pattern = A.tocoo()
+    first_split = np.full(count, depth)
+    differ = digits[:, pattern.row] != digits[:, pattern.col]
+    apart = differ.any(axis=0)
+    level = differ[:, apart].argmax(axis=0)
+    row = pattern.row[apart]
+    in_first = digits[level, row] == 0
+    np.minimum.at(first_split, row[in_first], level[in_first])
+    key = np.zeros(count, dtype=np.int64)
+    for k in range(depth):
+        key = 3 * key + np.where(first_split <= k, 2, digits[k])
+    return np.argsort(key, kind="stable")
+
+
+def _bisection_digits(nodes, depth):
+    ranks = [np.unique(values, return_inverse=True)[1].astype(np.int64) for values in nodes]
+    scaled = [(rank << 32) // (rank.max(initial=0) + 1) for rank in ranks]
+    return np.array([(scaled[k % 2] >> (31 - k // 2)) & 1 for k in range(depth)], dtype=np.int8)

@@ -1,0 +1,130 @@
+"""`solve`: check the problem, choose a route, prove the result."""
+
+import importlib
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.solvers.solution import Solution, kkt_residual, status_of
+
+# Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
+METHODS = {
+    "fourier": ("signorini.solvers.fourier", "solve_fourier"),
+    "direct": ("signorini.solvers.direct", "solve_direct"),
+}
+
+
+def solve(problem, method="auto", guess=None):
+    """Solve a discrete Signorini problem.
+
+    Parameters
+    ----------
+    problem : Problem
+    method : {"auto", "fourier", "direct"}
+        "auto" takes the cheapest route that applies and says why in the solution.
+    guess : ndarray of bool, shape (nc,), optional
+        Contact dofs believed to bind, for instance from a coarser level.
+
+    Returns
+    -------
+    Solution
+        Its status follows from the KKT residual recomputed from the problem.
+
+    Raises
+    ------
+    SolverError
+        If the data are not finite, the problem has no or no unique solution, the method is unknown or does not
+        apply, or the KKT residual of the result exceeds 1e-6.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> scene = signorini.load_scene("config/scenes/paper.yaml")
+    >>> solution = signorini.solve(signorini.discretize(scene, "P1", 64))
+    >>> solution.status, round(float(solution.u[0]), 8)
+    ('solved', 0.60808629)
+    """
+    _check_data(problem)
+    if not problem.fixed.size:
+        _check_solvable(problem)
+    method, reason = _choose(problem, method)
+    module, function = METHODS[method]
+    exponent = _exponent(problem)
+    scaled = _scaled(problem, -exponent)
+    u, active, iterations = getattr(importlib.import_module(module), function)(scaled, guess)
+    residual, multiplier = kkt_residual(scaled, u)
+    status = status_of(residual)
+    if status == "failed":
+        raise SolverError(
+            f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
+            "look for extreme cell shapes or try another solver.method"
+        )
+    multiplier = np.where(active, np.maximum(multiplier, 0.0), 0.0)
+    return Solution(
+        u=np.ldexp(u, exponent),
+        multiplier=np.ldexp(multiplier, exponent),
+        active=active,
+        residual=residual,
+        status=status,
+        iterations=iterations,
+        method=method,
+        reason=reason,
+    )
+
+
+def _choose(problem, method):
+    from signorini.solvers.fourier import obstruction
+
+    if method not in ("auto", *METHODS):
+        raise SolverError(f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}")
+    if method == "direct":
+        return method, "asked for"
+    why_not = obstruction(problem)
+    if method == "fourier":
+        if why_not:
+            raise SolverError(f"solver.method: fourier does not apply, {why_not}; use auto or direct")
+        return method, "asked for"
+    return ("direct", why_not) if why_not else ("fourier", "uniform grid, equal conditions beside the contact side")
+
+
+def _check_data(problem):
+    for name in ("b", "lower", "fixed_values"):
+        values = getattr(problem, name)
+        if not np.all(np.isfinite(values)):
+            k = int(np.flatnonzero(~np.isfinite(values))[0])
+            raise SolverError(f"problem.{name}: entry {k} is {values[k]}; all data must be finite")
+
+
+def _check_solvable(problem):
+    """Without Dirichlet part a constant may be added: the load's sum decides (Fichera's condition)."""
+    total, size = float(problem.b.sum()), float(np.abs(problem.b).sum())
+    rounding = 8.0 * np.finfo(float).eps * size
+    if not problem.contact.size:
+        raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
+    if abs(total) <= rounding:
+        raise SolverError(
+            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; add a dirichlet part"
+        )
+    if total > 0.0:
+        raise SolverError(
+            f"unbounded: no dirichlet part and int f + int g = {total:.3e} > 0 lifts u off the obstacle without end; "
+            "add a dirichlet part or a load with negative mean"
+        )
+
+
+def _exponent(problem):
+    """The power of two that brings the data to order one; exact, so results scale with the data bit for bit."""
+    size = max(float(np.max(np.abs(v), initial=0.0)) for v in (problem.b, problem.lower, problem.fixed_values))
+    if 0.0 < size < np.finfo(float).tiny:
+        warnings.warn(f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3)
+    return int(np.frexp(size)[1]) if size else 0
+
+
+def _scaled(problem, exponent):
+    parts = {name: np.ldexp(getattr(problem, name), exponent) for name in ("b", "lower", "fixed_values")}
+    scaled = replace(problem, **parts)
+    if "A" in problem.__dict__:
+        scaled.__dict__["A"] = problem.A
+    return scaled

@@ -1,0 +1,100 @@
+"""A solution and its proof: the KKT residual, computed from the problem alone."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# A residual is a backward error; what it may be called, from the best name to the worst.
+SOLVED = 1e-10
+INACCURATE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """What a solver found.
+
+    Parameters
+    ----------
+    u : ndarray, shape (ndof,)
+        Degrees of freedom, unit of u.
+    multiplier : ndarray, shape (nc,)
+        (A u - b) at the contact dofs: the contact force on each, an integral of du/dnu.
+    active : ndarray of bool, shape (nc,)
+        Where the constraint binds.
+    residual : float
+        Largest relative violation of the KKT conditions (`kkt_residual`), dimensionless.
+    status : {"solved", "inaccurate"}
+        Never better than the residual.
+    iterations : int
+        Active-set steps.
+    method : str
+        The route taken.
+    reason : str
+        Why that route.
+    """
+
+    u: np.ndarray
+    multiplier: np.ndarray
+    active: np.ndarray
+    residual: float
+    status: str
+    iterations: int
+    method: str
+    reason: str
+
+
+def kkt_residual(problem, u):
+    """Largest relative violation of the KKT conditions by `u`.
+
+    With r = A u - b, the multiplier lambda = r on the contact dofs, the force scale F = max(|b|, |A| |u|) and
+    the length scale G = max(|u|, |lower|), it is the largest of |r| / F on the other free dofs, (-lambda)+ / F,
+    (lower - u)+ / G, min((u - lower)+ / G, lambda+ / F), and the deviation of the Dirichlet values over G.
+
+    Parameters
+    ----------
+    problem : Problem
+    u : ndarray, shape (ndof,)
+
+    Returns
+    -------
+    residual : float
+        Dimensionless; infinite where u is not finite.
+    multiplier : ndarray, shape (nc,)
+    """
+    force = problem.apply(u) - problem.b
+    multiplier = force[problem.contact]
+    if not np.all(np.isfinite(force)):
+        return np.inf, multiplier
+    gap = u[problem.contact] - problem.lower
+    force_scale = max(_largest(problem.b), _row_bound(problem) * _largest(u)) or 1.0
+    length_scale = max(_largest(u), _largest(problem.lower), _largest(problem.fixed_values)) or 1.0
+    force[problem.contact] = 0.0
+    force[problem.fixed] = 0.0
+    violations = (
+        _largest(force) / force_scale,
+        _largest(np.minimum(multiplier, 0.0)) / force_scale,
+        _largest(np.minimum(gap, 0.0)) / length_scale,
+        _largest(np.minimum(np.maximum(gap, 0.0) / length_scale, np.maximum(multiplier, 0.0) / force_scale)),
+        _largest(u[problem.fixed] - problem.fixed_values) / length_scale,
+    )
+    return float(max(violations)), multiplier
+
+
+def _largest(values):
+    return float(np.max(np.abs(values), initial=0.0))
+
+
+def _row_bound(problem):
+    """The largest diagonal entry of A: |A| |u| is at least this, up to a factor that depends on the stencil."""
+    from signorini.stencil import largest_diagonal
+
+    if problem.grid is not None:
+        return largest_diagonal(problem.grid, problem.element)
+    return float(problem.A.diagonal().max())
+
+
+def status_of(residual):
+    """Name a residual: "solved" up to 1e-10, "inaccurate" up to 1e-6, "failed" beyond."""
+    if residual <= SOLVED:
+        return "solved"
+    return "inaccurate" if residual <= INACCURATE else "failed"

@@ -1,0 +1,100 @@
+"""The condensed contact matrix of a uniform grid: diagonal in a trigonometric basis, never formed where it is large."""
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.solvers.contact import DenseContact
+
+_DENSE_UP_TO = 96
+_MAX_STEPS = 1000
+_PATIENCE = 8
+_EPS = np.finfo(float).eps
+
+
+def contact_operator(basis, symbol):
+    """The operator S = mass * backward(symbol * forward(.)), dense for few dofs, by fast transforms for many."""
+    spectral = SpectralContact(basis, symbol)
+    if spectral.size > _DENSE_UP_TO:
+        return spectral
+    S = spectral.apply(np.eye(spectral.size))
+    return DenseContact(0.5 * (S + S.T))
+
+
+class SpectralContact:
+    """A contact matrix applied in O(n log n) and solved on its free dofs by conjugate gradients.
+
+    It has the interface of `DenseContact`. The preconditioner is the restriction of the inverse of S, which is as
+    cheap as S itself and leaves a few steps at every n; each solve starts from the last answer.
+
+    Parameters
+    ----------
+    basis : transforms.Basis
+    symbol : ndarray, shape (n,)
+        Eigenvalues of S in that basis, dimensionless; the first may be zero.
+
+    Attributes
+    ----------
+    products : int
+        Products with S so far.
+    """
+
+    def __init__(self, basis, symbol):
+        self.basis = basis
+        self.symbol = symbol
+        self.inverse = 1.0 / np.where(symbol > _EPS * symbol.max(), symbol, symbol.max() / symbol.size)
+        self.size = symbol.size
+        self.band = self.size * _EPS
+        self.products = 0
+        self._last = np.zeros(self.size)
+
+    def diagonal(self):
+        """The mean eigenvalue: the size of the diagonal, which varies little along the line; shape (n,)."""
+        return np.full(self.size, self.symbol.mean())
+
+    def apply(self, w):
+        """S w for one vector or the rows of an array."""
+        self.products += 1
+        return self.basis.mass * self.basis.backward(self.symbol * self.basis.forward(w))
+
+    def apply_abs(self, w):
+        """A bound of the size of the terms summed in S w, shape (n,)."""
+        return np.full(self.size, self.symbol.max() * np.max(np.abs(w), initial=0.0))
+
+    def solve_free(self, free, rhs):
+        """Solve S[free, free] x = rhs by preconditioned conjugate gradients, to rounding level.
+
+        Raises
+        ------
+        SolverError
+            If the residual stops falling before it is small.
+        """
+        x = np.where(free, self._last, 0.0)
+        full = np.zeros(self.size)
+        full[free] = rhs
+        r = np.where(free, full - self.apply(x), 0.0)
+        floor = 2.0 * _EPS * (np.max(np.abs(full)) + self.symbol.max() * np.max(np.abs(x)))
+        best, best_x, stalled = np.inf, x, 0
+        z = self._precondition(free, r)
+        p, rz = z, r @ z
+        for _ in range(_MAX_STEPS):
+            size = np.max(np.abs(r))
+            if size < 0.5 * best:
+                best, best_x, stalled = size, x, 0
+            else:
+                stalled += 1
+            if size <= floor or stalled > _PATIENCE or rz == 0.0:
+                break
+            Sp = np.where(free, self.apply(p), 0.0)
+            step = rz / (p @ Sp)
+            x = x + step * p
+            r = r - step * Sp
+            z = self._precondition(free, r)
+            rz, before = r @ z, rz
+            p = z + (rz / before) * p
+        if best > 1e6 * floor:
+            raise SolverError(f"contact line: conjugate gradients stopped at residual {best:.2e}, above {floor:.2e}")
+        self._last = best_x
+        return best_x[free]
+
+    def _precondition(self, free, r):
+        return np.where(free, self.basis.backward(self.inverse * self.basis.forward(r / self.basis.mass)), 0.0)

@@ -1,0 +1,102 @@
+"""Cosine and sine transforms that diagonalise second differences along the rows of an array.
+
+Each basis is a pair (forward, backward) with backward(forward(x)) = x, by NumPy's real FFT of the even or odd
+extension: importing scipy.fft would cost more than every coarse solve.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+_ROWS_AT_ONCE = 64
+
+
+@dataclass(frozen=True)
+class Basis:
+    """A trigonometric basis for `size` values per row.
+
+    Parameters
+    ----------
+    forward, backward : callable
+        Map arrays (..., size) of values to coefficients and back.
+    eigenvalues : ndarray, shape (size,)
+        Of the second difference -x[i-1] + 2 x[i] - x[i+1] with the basis's own end conditions.
+    mass : ndarray, shape (size,)
+        Weight of each value in the inner product in which the basis is orthogonal.
+    """
+
+    forward: object
+    backward: object
+    eigenvalues: np.ndarray
+    mass: np.ndarray
+
+
+def vertex_cosines(n):
+    """DCT-I on n + 1 vertices: zero flux at both end vertices."""
+    mass = np.ones(n + 1)
+    mass[[0, -1]] = 0.5
+    forward = _by_rows(lambda x: np.fft.rfft(np.concatenate([x, x[:, -2:0:-1]], axis=1)).real)
+    backward = _by_rows(lambda c: np.fft.irfft(c, 2 * n)[:, : n + 1])
+    return Basis(forward, backward, _second_difference(np.arange(n + 1), n), mass)
+
+
+def vertex_sines(n):
+    """DST-I on the n - 1 interior vertices: zero values at both end vertices."""
+
+    def forward(x):
+        zero = np.zeros((x.shape[0], 1))
+        return -np.fft.rfft(np.concatenate([zero, x, zero, -x[:, ::-1]], axis=1)).imag[:, 1:n]
+
+    def backward(c):
+        zero = np.zeros((c.shape[0], 1))
+        return np.fft.irfft(-1j * np.concatenate([zero, c, zero], axis=1), 2 * n)[:, 1:n]
+
+    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(np.arange(1, n), n), np.ones(n - 1))
+
+
+def midpoint_cosines(n):
+    """DCT-II on n cell midpoints: zero flux at both ends."""
+    k = np.arange(n)
+    turn = np.exp(-0.5j * np.pi * k / n)
+
+    def forward(x):
+        return (np.fft.rfft(np.concatenate([x, x[:, ::-1]], axis=1))[:, :n] * turn).real
+
+    def backward(c):
+        padded = np.concatenate([c / turn, np.zeros((c.shape[0], 1))], axis=1)
+        return np.fft.irfft(padded, 2 * n)[:, :n]
+
+    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(k, n), np.ones(n))
+
+
+def midpoint_sines(n):
+    """DST-II on n cell midpoints: zero values at both ends, half a cell outside."""
+    k = np.arange(1, n + 1)
+    turn = 1j * np.exp(-0.5j * np.pi * k / n)
+
+    def forward(x):
+        return (np.fft.rfft(np.concatenate([x, -x[:, ::-1]], axis=1))[:, 1:] * turn).real
+
+    def backward(c):
+        padded = np.concatenate([np.zeros((c.shape[0], 1)), c / turn], axis=1)
+        return np.fft.irfft(padded, 2 * n)[:, :n]
+
+    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(k, n), np.ones(n))
+
+
+def _second_difference(k, n):
+    return 4.0 * np.sin(0.5 * np.pi * k / n) ** 2
+
+
+def _by_rows(transform):
+    """Let a transform of (m, size) arrays take (size,) too, and long arrays a block of rows at a time."""
+
+    def transformed(x):
+        rows = np.atleast_2d(x)
+        result = np.empty_like(rows)
+        for start in range(0, rows.shape[0], _ROWS_AT_ONCE):
+            block = slice(start, start + _ROWS_AT_ONCE)
+            result[block] = transform(rows[block])
+        return result.reshape(x.shape)
+
+    return transformed

@@ -1,0 +1,103 @@
+"""Files: written whole or not at all, and refused when truncated or altered."""
+
+import csv
+import io
+import os
+import tempfile
+import zipfile
+from contextlib import contextmanager
+from pathlib import Path
+
+from signorini.exceptions import StorageError
+
+
+@contextmanager
+def replacing(path, mode="w", **options):
+    """Open a temporary file beside `path` that takes its place when the block ends without an error.
+
+    Raises
+    ------
+    StorageError
+        If the folder cannot be written or the disk is full; `path` is then as it was.
+    """
+    path = Path(path)
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        with os.fdopen(descriptor, mode, **options) as stream:
+            yield stream
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+        temporary = None
+    except OSError as error:
+        raise StorageError(
+            f"{path}: cannot write ({error.strerror}); free space or choose a writable folder"
+        ) from error
+    finally:
+        if temporary is not None:
+            os.unlink(temporary)
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def write_text(path, text):
+    """Write `text` as UTF-8 with Unix line ends."""
+    with replacing(path, encoding="utf-8", newline="\n") as stream:
+        stream.write(text)
+
+
+def write_csv(path, rows):
+    """Write a non-empty list of dicts with equal keys; floats keep every digit, None is an empty field."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(path, text.getvalue())
+
+
+def read_csv(path, numbers=()):
+    """Read a list of dicts; the columns named in `numbers` become float, or None where empty."""
+    try:
+        with open(path, encoding="utf-8", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        for row in rows:
+            row.update({key: float(row[key]) if row[key] else None for key in numbers})
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise StorageError(f"{path}: not a readable table ({error}); delete it and rerun") from error
+    return rows
+
+
+def write_npz(path, kind, **arrays):
+    """Write arrays as an uncompressed .npz whose entry ``kind`` says what they are; the bytes depend on them alone."""
+    import numpy as np
+
+    with replacing(path, "wb") as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
+        for name, value in {"kind": kind, **arrays}.items():
+            entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+            with archive.open(entry, "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(value), allow_pickle=False)
+
+
+def read_npz(path, kind):
+    """Read what `write_npz` wrote, every checksum verified.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, truncated, altered, holds Python objects, or is of another kind.
+    """
+    import numpy as np
+
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, NotImplementedError) as error:
+        raise StorageError(f"{path}: truncated or altered ({error}); delete it and rerun") from error
+    if str(arrays.pop("kind", "")) != kind:
+        raise StorageError(f"{path}: does not hold a {kind}; delete it and rerun")
+    return arrays

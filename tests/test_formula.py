@@ -1,0 +1,688 @@
+"""Formulas: what is refused and how, values against plain numpy and Python, derivatives against analysis."""
+
+import cmath
+import doctest
+import math
+import os
+import pickle
+import subprocess
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import signorini.formula
+from signorini.exceptions import FormulaError
+from signorini.formula import Formula
+from signorini.formula.lexicon import FUNCTIONS, KNOWN
+
+X, Y = np.meshgrid([-1.5, -0.25, 0.0, 0.3, 2.0], [-0.75, 0.0, 0.5, 1.0])
+R, THETA = np.sqrt(X**2 + Y**2), np.arctan2(Y + 0.0, X)
+
+REFUSED = {
+    # case: (text, what the message must hold)
+    "import": ("__import__('os').system('true')", "column 12"),
+    "attribute": ("x.real", "column 2"),
+    "class": ("().__class__", "column 3"),
+    "globals": ("np.load.__globals__", "without a module"),
+    "dunder": ("__class__", "unknown name '__class__'"),
+    "unknown call": ("1 + sinn(x)", "'sinn' at column 5 of '1 + sinn(x)'; did you mean sin?"),
+    "unknown name": ("x + zz", ", ".join(KNOWN)),
+    "lambda": ("lambda: x", "':' at column 7"),
+    "lambda call": ("(lambda x)", "unknown name 'lambda'"),
+    "comprehension": ("max([x for x in y])", "'['"),
+    "generator": ("max(x for x in y)", "unknown name 'for'"),
+    "f-string": ("f'{x}'", "column 2"),
+    "string": ('"x"', "column 1"),
+    "subscript": ("x[0]", "'[' at column 2"),
+    "keyword": ("max(x, y=1)", "no named arguments"),
+    "starred": ("max(*x)", "* where a value is expected at column 5"),
+    "double starred": ("max(**x)", "** where a value is expected"),
+    "walrus": ("(x := 1)", "':' at column 4"),
+    "assignment": ("x = 1", "write =="),
+    "ternary": ("x if x > 0 else y", "where(condition, a, b)"),
+    "tuple": ("(x, y)", "comma"),
+    "decimal comma": ("0,5*x", "write 0.5 with a point"),
+    "floor division": ("x//2", "floor(a/b)"),
+    "modulo": ("x % 2", "floor(a/b)"),
+    "shift": ("1 << 9", "< where a value is expected at column 4"),
+    "bitwise": ("where(x > 0 & y > 0, 1, 0)", "write and"),
+    "identity": ("where(x is y, 1, 0)", "'is'"),
+    "power tower": ("9**9**9**9", "power"),
+    "power tower in x": ("x*9**9**9**9", "power"),
+    "complex power": ("(-8)**(1/3)", "not real"),
+    "infinite power": ("0**-1", "finite"),
+    "5000 characters": ("x+" * 2500 + "x", "1000 characters"),
+    "1001 characters": ("x" + " " * 1000, "1000 characters"),
+    "1000 parentheses": ("(" * 500 + "x" + ")" * 499, "50 nested levels at column 51"),
+    "2000 parentheses": ("(" * 1000 + "x" + ")" * 1000, "1000 characters"),
+    "51 parentheses": ("(" * 51 + "x" + ")" * 51, "50 nested levels"),
+    "51 calls": ("abs(" * 51 + "x" + ")" * 51, "50 nested levels"),
+    "1000 openings": ("(" * 1000, "50 nested levels"),
+    "1000 minus": ("-" * 1000, "nothing where a value is expected"),
+    "overflowing number": ("1e400", "1e400' out of range"),
+    "underflowing number": ("x + 1e-400", "1e-400' out of range at column 5"),
+    "huge integer": ("9" * 400, "out of range"),
+    "complex": ("1j*x", "formula is real"),
+    "leading zero": ("010", "leading zero"),
+    "hexadecimal": ("0x10", "'0x10' is no number"),
+    "underscore": ("1_000", "'1_000' is no number"),
+    "cyrillic x": ("х + 1", "U+0445 CYRILLIC SMALL LETTER HA"),
+    "fullwidth x": ("ｘ", "U+FF58"),
+    "arabic digit": ("٣*x", "U+0663"),
+    "minus sign": ("x − 1", "ASCII -"),
+    "greek": ("2*π", "write pi"),
+    "superscript": ("x²", "write x**2"),
+    "lone surrogate": ("\ud800", "U+D800"),
+    "no-break space": ("x +\u00a01", "U+00A0"),
+    "null byte": ("x\0", "'\\x00'"),
+    "newline": ("x\n+ 1", "one line"),
+    "newline at the end": ("x\n", "one line"),
+    "comment": ("x # y", "'#'"),
+    "semicolon": ("x; y", "';'"),
+    "backslash": ("x \\", "column 3"),
+    "caret": ("x^2", "write x**2"),
+    "2x": ("2x", "2*x"),
+    "2pi": ("x + 2pi", "'2pi' is no number at column 5"),
+    "2(x+1)": ("2(x+1)", "write 2*("),
+    "x(x+1)": ("x(x+1)", "write x*("),
+    "(x)(y)": ("(x)(y)", "write )*("),
+    "x y": ("x y", "missing operator before 'y' at column 3 of 'x y'; write x*y"),
+    "xy": ("xy", "write x*y"),
+    "x 2": ("x 2", "write x*2"),
+    "sin x": ("sin x", "write sin(...)"),
+    "sin": ("2*sin", "write sin(...)"),
+    "sinx": ("sinx", "did you mean sin?"),
+    "ln": ("ln(x)", "write log(x)"),
+    "arctan": ("arctan(x)", "write atan("),
+    "arctan2": ("arctan2(y, x)", "write atan2("),
+    "Pi": ("Pi*x", "did you mean pi?"),
+    "SIN": ("SIN(x)", "did you mean sin?"),
+    "no text": ("", "expected at column 1"),
+    "blank": ("   ", "expected at column 4"),
+    "operator last": ("x +", "nothing where a value is expected at column 4"),
+    "operator first": ("* x", "column 1"),
+    "unclosed": ("2*(x", "never closed at column 3"),
+    "unclosed call": ("max(x, y", "never closed at column 1"),
+    "unopened": ("x)", "unmatched )"),
+    "empty call": ("sqrt()", ") where a value is expected"),
+    "comma last": ("max(x, )", ") where a value is expected"),
+    "two arguments": ("sqrt(x, y)", "it takes 1"),
+    "one argument": ("min(x)", "it takes 2 or more"),
+    "where of two": ("where(x > 0, 1)", "it takes 3"),
+    "bare condition": ("x > 0", "where(condition, 1, 0)"),
+    "condition times": ("(x > 0)*x", "where(condition, 1, 0)"),
+    "condition in a function": ("abs(x > 0)", "where(condition, 1, 0)"),
+    "condition compared": ("where((x > 0) == 1, 1, 0)", "place of a number"),
+    "condition as a branch": ("where(x > 0, x > 1, 0)", "place of a number"),
+    "number as a condition": ("where(x, 1, 0)", "as x > 0"),
+    "number in and": ("where(x and y > 0, 1, 0)", "as x > 0"),
+    "number in not": ("where(not x, 1, 0)", "as x > 0"),
+    "True": ("True", "where(condition"),
+    "bool": (True, "not bool"),
+    "None": (None, "not NoneType"),
+    "list": (["x"], "not list"),
+    "complex value": (1j, "not complex"),
+    "nan": (math.nan, "nan"),
+    "inf": (-math.inf, "inf"),
+    "huge int": (10**5000, "out of range"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refusal_is_quick_and_one_helpful_line(case):
+    text, hint = REFUSED[case]
+    start = time.perf_counter()
+    with pytest.raises(FormulaError) as caught:
+        Formula(text, "data.obstacle")
+    elapsed = time.perf_counter() - start
+    message = str(caught.value)
+    assert message.startswith("data.obstacle: ")
+    assert hint in message
+    assert len(message.splitlines()) == 1
+    assert len(message) < 500
+    assert elapsed < 0.1
+
+
+VALUES = {
+    "x": X,
+    "y": Y,
+    "r": R,
+    "theta": THETA,
+    "pi": np.full(X.shape, np.pi),
+    " 2\t* e ": np.full(X.shape, 2 * np.e),
+    "1 - 2 - 3": np.full(X.shape, -4.0),
+    "8/4/2": np.full(X.shape, 1.0),
+    ".5 + 1. + 1e3 + 2E-1": np.full(X.shape, 0.5 + 1.0 + 1e3 + 2e-1),
+    "-x**2": -(X**2),
+    "2**3**2": np.full(X.shape, 512.0),
+    "2**-x**2": 2 ** -(X**2),
+    "+-+x": -X,
+    "2*-x": -2 * X,
+    "x - -y": X + Y,
+    "x**3 - 2*x*y + 0.5": X**3 - 2 * X * Y + 0.5,
+    "x**10": X**10,
+    "r**(3/2)*cos(3*theta/2)": R**1.5 * np.cos(1.5 * THETA),
+    "(1 + r)**-2.5": (1 + R) ** -2.5,
+    "(1 + r)**x": (1 + R) ** X,
+    "sqrt(abs(x)) + exp(x) + log(1 + r)": np.sqrt(abs(X)) + np.exp(X) + np.log(1 + R),
+    "sin(x)*cos(y) + tan(x/2)": np.sin(X) * np.cos(Y) + np.tan(X / 2),
+    "asin(x/3) + acos(y/3) + atan(x)": np.arcsin(X / 3) + np.arccos(Y / 3) + np.arctan(X),
+    "sinh(x) + cosh(y) - tanh(x)": np.sinh(X) + np.cosh(Y) - np.tanh(X),
+    "atan2(y, x - 1) + hypot(x, 1)": np.arctan2(Y, X - 1) + np.hypot(X, 1),
+    "min(x, y, 0) + max(x, y)": np.minimum(np.minimum(X, Y), 0) + np.maximum(X, Y),
+    "floor(x) + 2*ceil(x) + 3*sign(y)": np.floor(X) + 2 * np.ceil(X) + 3 * np.sign(Y),
+    "pos(x - 0.3)**3 + step(y)": np.maximum(X - 0.3, 0) ** 3 + (Y >= 0),
+    "where(x > 0, 1, 0)": np.where(X > 0, 1.0, 0.0),
+    "where(0 <= x < 1 and not y < 0 or x == -1.5, x, y)": np.where((X >= 0) & (X < 1) & ~(Y < 0) | (X == -1.5), X, Y),
+    "where(y > x < 1 != y, 1, 2)": np.where((Y > X) & (X < 1) & (Y != 1), 1.0, 2.0),
+    "where((x > 0) or (y > 0), 1, 2)": np.where((X > 0) | (Y > 0), 1.0, 2.0),
+    "where(x >= 0, sqrt(x), 1/y**0)": np.where(X >= 0, np.sqrt(np.maximum(X, 0)), 1.0),
+    "where(x != 0, sin(x)/x, 1)": np.sinc(X / np.pi),
+    "(" * 50 + "x" + ")" * 50: X,
+    "-" * 998 + "x": X,
+    "x" + "+x" * 499: 500 * X,
+    "2" + "**1" * 300: np.full(X.shape, 2.0),
+    "x" + "*1" * 499: X,
+}
+
+
+@pytest.mark.parametrize("text", VALUES, ids=lambda text: text[:40])
+def test_values_agree_with_numpy(text):
+    start = time.perf_counter()
+    formula = Formula(text)
+    assert time.perf_counter() - start < 0.1
+    np.testing.assert_allclose(formula(X, Y), VALUES[text], rtol=4e-15, atol=1e-15)
+
+
+@pytest.mark.parametrize("number", [0, -3, 0.1, -0.0, 1e-5, 5e-324, -1.7976931348623157e308, 10**308])
+def test_numbers_are_formulas(number):
+    formula = Formula(number)
+    assert formula.constant == float(number)
+    assert math.copysign(1, formula.constant) == (1 if number == 0 else math.copysign(1, number))
+    assert formula == Formula(repr(number))
+
+
+@pytest.mark.parametrize(
+    ("text", "variables", "constant"),
+    [
+        ("2*pi", set(), 2 * math.pi),
+        ("where(1 < 2, 3, 1/0)", set(), 3.0),
+        ("x - x", {"x"}, None),
+        ("y**2", {"y"}, None),
+        ("theta", {"x", "y"}, None),
+        ("r", {"x", "y"}, None),
+    ],
+)
+def test_constant_and_variables(text, variables, constant):
+    formula = Formula(text)
+    assert formula.variables == frozenset(variables)
+    assert formula.constant == constant
+    assert constant is None or type(formula.constant) is float
+
+
+def test_constant_that_is_not_finite_raises():
+    with pytest.raises(FormulaError, match="g: value is inf"):
+        _ = Formula("1/0", "g").constant
+
+
+def test_is_a_value():
+    one, other = Formula("x + y", "f"), Formula("x + y", "g")
+    assert one == other
+    assert len({one, other, Formula("y + x")}) == 2
+    assert pickle.loads(pickle.dumps(one))(1.0, 2.0) == 3.0
+    with pytest.raises(AttributeError):
+        one.text = "y"
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "shape"),
+    [
+        (1.0, 2.0, ()),
+        ([1, 2], 3, (2,)),
+        (np.ones((1, 3)), np.ones((2, 1)), (2, 3)),
+        (np.ones((2, 0)), 1.0, (2, 0)),
+        (np.ones(3, dtype=np.float32), np.ones(3, dtype=int), (3,)),
+    ],
+)
+@pytest.mark.parametrize("text", ["1", "x", "y", "x*y", "r", "x**y", "where(x > 0, 1, 2)"])
+def test_result_has_the_shape_of_the_points(text, x, y, shape):
+    formula = Formula(text)
+    results = [formula(x, y), *formula.value_and_gradient(x, y), formula.laplacian(x, y)]
+    for result in results:
+        assert isinstance(result, np.ndarray)
+        assert result.shape == shape
+        assert result.dtype == np.float64
+        assert result.flags.writeable
+
+
+def test_points_are_not_aliased():
+    x = np.zeros(3)
+    Formula("x")(x, x)[:] = 1.0
+    assert not x.any()
+
+
+@pytest.mark.parametrize("y", [0.0, -0.0])
+@pytest.mark.parametrize("x", [-2.0, 0.0, -0.0, 2.0])
+def test_angle_on_the_axis_does_not_see_the_sign_of_zero(x, y):
+    expected = math.pi if x < 0 else 0.0
+    assert Formula("theta")(x, y) == expected
+    assert Formula("atan2(y, x)")(x, y) == expected
+    assert Formula("atan2(-y, x)")(x, y) == expected
+
+
+NOT_FINITE = {
+    "square root": ("sqrt(x)", [1.0, -0.1, -0.2], [0.0, 0.3, 0.0], "value is nan at (x, y) = (-0.1, 0.3)"),
+    "power": ("x**0.3", [-1.0], [2.0], "value is nan at (x, y) = (-1.0, 2.0)"),
+    "half power": ("x**1.5", [-1.0], [2.0], "value is nan at (x, y) = (-1.0, 2.0)"),
+    "pole": ("1/(x - y)", [1.0, 0.1], [0.5, 0.1], "value is inf at (x, y) = (0.1, 0.1)"),
+    "negative pole": ("-1/x", [0.0], [0.0], "value is -inf"),
+    "logarithm": ("log(r)", [0.0], [0.0], "value is -inf at (x, y) = (0.0, 0.0)"),
+    "overflow": ("exp(1000*x)", [0.0, 1.0], [0.0, 0.0], "value is inf at (x, y) = (1.0, 0.0)"),
+    "constant": ("0/0", [7.0], [1.0], "value is nan at (x, y) = (7.0, 1.0)"),
+    "nan point": ("x", [math.nan], [1.0], "value is nan at (x, y) = (nan, 1.0)"),
+    "nan in min": ("min(sqrt(x), 0)", [-1.0], [0.0], "value is nan"),
+    "nan in max": ("max(0, sqrt(x))", [-1.0], [0.0], "value is nan"),
+    "nan in pos": ("pos(sqrt(x))", [-1.0], [0.0], "value is nan"),
+    "nan in step": ("step(sqrt(x))", [-1.0], [0.0], "value is nan"),
+    "nan decides": ("where(sqrt(x) > 0, 1, 2)", [-1.0], [0.0], "value is nan"),
+    "nan decides not": ("where(not sqrt(x) > 0, 1, 2)", [-1.0], [0.0], "value is nan"),
+    "nan decides and": ("where(y > 0 and sqrt(x) > 0, 1, 2)", [-1.0], [1.0], "value is nan"),
+    "nan decides or": ("where(y > 0 or sqrt(x) > 0, 1, 2)", [-1.0], [0.0], "value is nan"),
+    "nan in a chain": ("where(0 < sqrt(x) < 2, 1, 2)", [-1.0], [0.0], "value is nan"),
+    "nan in unequal": ("where(sqrt(x) != 0, 1, 2)", [-1.0], [0.0], "value is nan"),
+}
+
+
+@pytest.mark.parametrize("case", NOT_FINITE)
+def test_error_names_field_value_and_first_point(case):
+    text, x, y, expected = NOT_FINITE[case]
+    formula = Formula(text, "data.f")
+    for evaluate in (formula, *formula.gradient(), formula.value_and_gradient, formula.laplacian):
+        with pytest.raises(FormulaError) as caught:
+            evaluate(np.array(x), np.array(y))
+        message = str(caught.value)
+        assert message.startswith(f"data.f: {expected}")
+        assert f"in {text!r}" in message
+        assert "\n" not in message
+    assert not np.isfinite(formula(x, y, check=False)).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "x", "y", "expected"),
+    [
+        ("where(x > 0, log(x), -1)", -1.0, 0.0, -1.0),
+        ("where(x > 0, 1/0, -1)", -1.0, 0.0, -1.0),
+        ("where(x > 0 and log(x) > 1, 1, -1)", -1.0, 0.0, -1.0),
+        ("where(log(x) > 1 and x > 0, 1, -1)", -1.0, 0.0, -1.0),
+        ("where(x <= 0 or log(x) > 1, 1, -1)", -1.0, 0.0, 1.0),
+        ("where(not (x > 0 and log(x) > 1), 1, -1)", -1.0, 0.0, 1.0),
+        ("where(1/x > -1/x, 1, 2)", 0.0, 0.0, 1.0),
+    ],
+)
+def test_nan_that_decides_nothing_is_harmless(text, x, y, expected):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert Formula(text)(x, y) == expected
+
+
+@pytest.mark.parametrize("k", [-900, -61, 1, 61, 900])
+def test_radius_scales_exactly(k):
+    rng = np.random.default_rng(1)
+    x, y = rng.normal(size=(2, 200))
+    for text in ("r", "theta", "hypot(x - 3*y, y)"):
+        degree = 0 if text == "theta" else k
+        scaled = Formula(text)(np.ldexp(x, k), np.ldexp(y, k))
+        np.testing.assert_array_equal(scaled, np.ldexp(Formula(text)(x, y), degree))
+
+
+@pytest.mark.parametrize(("text", "degree"), [("x**3", 3), ("r**(3/2)", 1.5), ("r**-2", -2), ("sqrt(x*y)", 1)])
+@pytest.mark.parametrize("k", [-80, 2, 80])
+def test_powers_scale_exactly(text, degree, k):
+    x, y = np.random.default_rng(2).uniform(0.1, 9, size=(2, 200))
+    scaled = Formula(text)(np.ldexp(x, k), np.ldexp(y, k))
+    np.testing.assert_array_equal(scaled, np.ldexp(Formula(text)(x, y), int(degree * k)))
+
+
+def test_small_powers_are_products():
+    x = np.random.default_rng(6).uniform(0.1, 9, size=2000)
+    for text, product in (("x**3", x * x * x), ("x**(3/2)", np.sqrt(x) * x), ("x**-5", 1 / (x * x * x * x * x))):
+        np.testing.assert_array_equal(Formula(text)(x, 0.0), product)
+
+
+def test_varying_exponent_is_treated_alike_at_one_point_and_many():
+    x = np.random.default_rng(7).uniform(0.1, 9, size=2000)
+    np.testing.assert_array_equal(Formula("x**y")(x, np.full(2000, 7.5)), [Formula("x**y")(t, 7.5) for t in x])
+
+
+def test_value_does_not_depend_on_neighbours():
+    formula = Formula("r**(3/2)*cos(3*theta/2) + exp(-x)*x**y + x**1.7 + tanh(y)")
+    x, y = np.random.default_rng(3).uniform(0.1, 2, size=(2, 37))
+    alone = [float(formula(a, b)) for a, b in zip(x, y, strict=True)]
+    np.testing.assert_allclose(formula(x, y), alone, rtol=1e-15)
+    np.testing.assert_array_equal(Formula("x**3*r")(x, y), [Formula("x**3*r")(*p) for p in zip(x, y, strict=True)])
+
+
+# Derivatives
+
+DERIVATIVES = {
+    # text: (du/dx, du/dy, laplacian), by hand
+    "7": (0 * X, 0 * X, 0 * X),
+    "3*x - y/2": (3 + 0 * X, -0.5 + 0 * X, 0 * X),
+    "x**2*y - y**3/3": (2 * X * Y, X**2 - Y**2, 0 * X),
+    "x**0 + y**1": (0 * X, 1 + 0 * X, 0 * X),
+    "x**4 + 3*x*y": (4 * X**3 + 3 * Y, 3 * X, 12 * X**2),
+    "(x + 2*y)**2": (2 * (X + 2 * Y), 4 * (X + 2 * Y), 10 + 0 * X),
+    "1/(4 + x)": (-1 / (4 + X) ** 2, 0 * X, 2 / (4 + X) ** 3),
+    "sin(x)*exp(y)": (np.cos(X) * np.exp(Y), np.sin(X) * np.exp(Y), 0 * X),
+    "2**x": (np.log(2) * 2**X, 0 * X, np.log(2) ** 2 * 2**X),
+    "log((x + 3)**2 + y**2)": (
+        2 * (X + 3) / ((X + 3) ** 2 + Y**2),
+        2 * Y / ((X + 3) ** 2 + Y**2),
+        0 * X,
+    ),
+    "pos(x - 0.3)**3": (3 * np.maximum(X - 0.3, 0) ** 2, 0 * X, 6 * np.maximum(X - 0.3, 0)),
+    "where(x > 0.1, x**2, y**2)": (np.where(X > 0.1, 2 * X, 0), np.where(X > 0.1, 0, 2 * Y), 2 + 0 * X),
+    "where(x > 0, x**1.5, 0)": (
+        1.5 * np.maximum(X, 0) ** 0.5,
+        0 * X,
+        np.where(X > 0, 0.75 * np.where(X > 0, X, 1) ** -0.5, 0),
+    ),
+    "sign(x) + floor(y) + step(x - 9)": (0 * X, 0 * X, 0 * X),
+    "step(y - 0.1)*x**2": (2 * X * (Y > 0.1), 0 * X, 2.0 * (Y > 0.1)),
+}
+
+
+@pytest.mark.parametrize("text", DERIVATIVES)
+def test_derivatives_by_hand(text):
+    formula = Formula(text)
+    ux, uy, laplacian = DERIVATIVES[text]
+    u, *gradient = formula.value_and_gradient(X, Y)
+    np.testing.assert_array_equal(u, formula(X, Y))
+    for partial, part, expected in zip(formula.gradient(), gradient, (ux, uy), strict=True):
+        np.testing.assert_array_equal(partial(X, Y), part)
+        np.testing.assert_allclose(part, expected, rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(formula.laplacian(X, Y), laplacian, rtol=1e-13, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "x", "slope"),
+    [
+        ("abs(x)", 0.0, 1.0),
+        ("pos(x)", 0.0, 1.0),
+        ("pos(x)", -1.0, 0.0),
+        ("max(x, -x)", 0.0, 1.0),
+        ("max(-x, x)", 0.0, -1.0),
+        ("min(2*x, x, x**2)", 0.0, 2.0),
+        ("where(x > 0, x, 5*x)", 0.0, 5.0),
+        ("where(x > 0, sqrt(x), 5*x)", 0.0, 5.0),
+    ],
+)
+def test_derivative_at_a_kink_is_that_of_the_branch_taken(text, x, slope):
+    assert Formula(text).gradient()[0](x, 0.0) == slope
+
+
+def test_singular_function_is_harmonic_with_its_normal_derivative_on_the_contact_side():
+    """E1 = Re z^(3/2): gradient (3/2) (Re, -Im) z^(1/2); du/dn = -du/dy = (3/2) sqrt(r) at x < 0, y = 0."""
+    u = Formula("r**(3/2)*cos(3*theta/2)")
+    x, y = np.random.default_rng(4).uniform([[-1], [0]], 1, size=(2, 500))
+    root = np.sqrt(x + 1j * y)
+    _, ux, uy = u.value_and_gradient(x, y)
+    np.testing.assert_allclose([ux, uy], [1.5 * root.real, -1.5 * root.imag], rtol=1e-12, atol=1e-14)
+    assert np.max(abs(u.laplacian(x, y)) * np.sqrt(np.hypot(x, y))) < 1e-14
+    for zero in (0.0, -0.0):
+        np.testing.assert_allclose(-u.gradient()[1](-x * x, zero), 1.5 * abs(x), rtol=1e-14)
+
+
+@pytest.mark.parametrize("x", [-3.0, 0.0, 0.5])
+@pytest.mark.parametrize("y", [0.25, 2.0])
+def test_polar_coordinates(x, y):
+    r2 = x * x + y * y
+    _, rx, ry = Formula("r").value_and_gradient(x, y)
+    _, tx, ty = Formula("theta").value_and_gradient(x, y)
+    np.testing.assert_allclose([rx, ry], [x / r2**0.5, y / r2**0.5], rtol=1e-15)
+    np.testing.assert_allclose([tx, ty], [-y / r2, x / r2], rtol=1e-15)
+    np.testing.assert_allclose(Formula("r").laplacian(x, y), r2**-0.5, rtol=1e-15)
+    np.testing.assert_allclose(Formula("theta").laplacian(x, y), 0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "quantity"),
+    [
+        ("r", "d/dx is nan"),
+        ("theta", "d/dx is nan"),
+        ("r**1.5*cos(1.5*theta)", "d/dx is nan"),
+        ("sqrt(x)", "d/dx is inf"),
+    ],
+)
+def test_derivative_at_a_singular_point_names_it(text, quantity):
+    formula = Formula(text, "exact")
+    assert formula(0.0, 0.0) == 0.0
+    for evaluate in (formula.gradient()[0], formula.value_and_gradient, formula.laplacian):
+        with pytest.raises(FormulaError, match=r"exact: .* at \(x, y\) = \(0\.0, 0\.0\)") as caught:
+            evaluate([1.0, 0.0], [1.0, 0.0])
+        assert quantity in str(caught.value)
+    assert not np.isfinite(formula.gradient()[0](0.0, 0.0, check=False))
+
+
+def test_slope_of_a_factor_that_does_not_vary_is_not_missed_where_it_is_singular():
+    assert Formula("sqrt(y)").gradient()[0](1.0, 0.0) == 0.0
+    assert Formula("x*sqrt(y)").gradient()[0](1.0, 0.0) == 0.0
+
+
+def test_infinite_second_derivatives_are_silent_unless_checked():
+    for text, value in (("x**1.5 - y**1.5", "nan"), ("1e308*(x**2 + y**2)/2", "inf")):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert repr(float(Formula(text).laplacian(0.0, 0.0, check=False))) == value
+        with pytest.raises(FormulaError, match="is inf"):
+            Formula(text).laplacian(0.0, 0.0)
+
+
+def test_large_slopes_do_not_spoil_a_kink():
+    u = Formula("abs(2**900*x) + pos(2**900*y)")
+    assert u.laplacian(1.0, 1.0) == 0.0
+
+
+def test_exact_smooth_scene_gives_its_force():
+    """E4 with alpha = 0: u = phi (1 - y^2) - y (1 - y) psi; f by hand."""
+    u = Formula("8*pos(x - 1/2)**3*(1 - y**2) - y*(1 - y)*8*pos(1/2 - x)**3")
+    x, y = np.random.default_rng(5).uniform(size=(2, 100))
+    p, q = np.maximum(x - 0.5, 0), np.maximum(0.5 - x, 0)
+    expected = 48 * p * (1 - y**2) - 16 * p**3 - 48 * q * y * (1 - y) + 16 * q**3
+    np.testing.assert_allclose(u.laplacian(x, y), expected, rtol=1e-12, atol=1e-13)
+
+
+SMOOTH = [
+    *(f"{name}(0.3*x + 0.2*y**2 + 0.1)" for name in FUNCTIONS if FUNCTIONS[name] == (1, 1)),
+    *(
+        "atan2(x*y, x + y**2)",
+        "hypot(x*y, x + y**2)",
+        "min(x*y, y**3, 9)",
+        "max(x*y, y**3)",
+        "(x + y)**(x*y)",
+    ),
+    *(
+        "x**y",
+        "(x + y)**-3",
+        "(x*y)**(5/2)",
+        "(x*y)**1.7",
+        "x**9",
+        "exp(x*y)/(1 + r**2)",
+        "theta**2*r",
+        "-(+x*y)",
+    ),
+    *("where(x > y, x*y**3, sin(x*y))", "tan(x)*atan(y)/cosh(x - y)", "x**where(x > 0, 2, 3)*y"),
+]
+
+
+@pytest.mark.parametrize("text", SMOOTH)
+def test_derivatives_against_central_differences(text):
+    u, h = Formula(text), 1e-5
+    ux, uy = u.gradient()
+    x, y = np.array([0.7, 1.1]), np.array([0.4, 0.6])
+    np.testing.assert_allclose(ux(x, y), (u(x + h, y) - u(x - h, y)) / (2 * h), rtol=1e-7, atol=1e-8)
+    np.testing.assert_allclose(uy(x, y), (u(x, y + h) - u(x, y - h)) / (2 * h), rtol=1e-7, atol=1e-8)
+    second = (ux(x + h, y) - ux(x - h, y) + uy(x, y + h) - uy(x, y - h)) / (2 * h)
+    np.testing.assert_allclose(u.laplacian(x, y), second, rtol=1e-7, atol=1e-7)
+
+
+# Properties
+
+WORDS = [
+    *KNOWN,
+    *"+-*/(),.<>=^ 0123456789j_[]'",
+    "**",
+    "==",
+    "and ",
+    " or ",
+    "not ",
+    "1e9",
+    "x",
+    "y",
+    "sin(",
+    "\n",
+    "é",
+]
+SOUP = st.one_of(st.text(max_size=60), st.lists(st.sampled_from(WORDS), max_size=40).map("".join))
+
+
+def attempt(text):
+    """(formula, "") or (None, message)."""
+    try:
+        return Formula(text, "data.f"), ""
+    except FormulaError as error:
+        return None, str(error)
+
+
+@settings(max_examples=400, deadline=1000)
+@given(SOUP)
+def test_any_text_is_a_formula_or_a_formula_error(text):
+    formula, message = attempt(text)
+    assert message.isprintable()
+    if formula is not None:
+        assert formula(X, Y, check=False).shape == X.shape
+        assert formula.laplacian(X, Y, check=False).shape == X.shape
+
+
+@settings(max_examples=100, deadline=1000)
+@given(st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.binary(), st.lists(st.integers())))
+def test_any_value_is_a_number_or_a_formula_error(value):
+    formula, message = attempt(value)
+    assert message.isprintable()
+    assert formula is None or formula.constant == float(value)
+
+
+def joined(operators):
+    """Two texts around an operator, with and without parentheses, so that precedence matters."""
+    return lambda inner: st.builds(
+        lambda form, a, operator, b: form.format(f"{a}{operator}{b}"),
+        st.sampled_from(["{}", "({})", "-({})", "-{}", "abs({})"]),
+        inner,
+        st.sampled_from(operators),
+        inner,
+    )
+
+
+LEAVES = st.sampled_from(["x", "y", "2.0", "0.5", "-3.0", "1.25e-1", "10."])
+SELECTIONS = joined([" + ", "-", "*", "/", " - -"])
+ARITHMETIC = st.recursive(
+    LEAVES,
+    lambda inner: st.one_of(
+        SELECTIONS(inner),
+        st.builds("min({}, {}, {})".format, inner, inner, inner),
+        st.builds("max({}, {})".format, inner, inner),
+        st.builds("where({} < {} <= {}, {}, {})".format, inner, inner, inner, inner, inner),
+        st.builds("where({} > {} and not {} < 1 or {} >= 0, {}, {})".format, *[inner] * 6),
+        st.builds("where(not ({} == {} or {} != 0.5), {}, {})".format, *[inner] * 5),
+    ),
+    max_leaves=12,
+)
+PYTHON = {
+    "__builtins__": {},
+    "abs": abs,
+    "min": min,
+    "max": max,
+    "where": lambda condition, a, b: a if condition else b,
+}
+POINTS = st.tuples(*[st.sampled_from([-2.0, -0.5, 0.0, 0.3, 1.0, 1e10])] * 2)
+
+
+@settings(max_examples=300, deadline=None)
+@given(ARITHMETIC, POINTS)
+def test_arithmetic_has_the_bits_of_python(text, point):
+    x, y = point
+    try:
+        expected = eval(text, {**PYTHON, "x": x, "y": y})
+    except ZeroDivisionError:
+        return
+    if len(text) <= 1000:
+        np.testing.assert_array_equal(Formula(text)(x, y, check=False), expected)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.recursive(LEAVES, joined(["**", " **-", "*", "-"]), max_leaves=6))
+def test_powers_group_as_in_python(text):
+    x, y = 1.5, 0.75
+    try:
+        expected = float(eval(text, {**PYTHON, "abs": math.fabs, "x": x, "y": y}))
+    except (ZeroDivisionError, OverflowError, TypeError):  # a pole, or complex
+        return
+    formula, message = attempt(text)
+    if formula is None:
+        assert "constant power" in message
+    else:
+        np.testing.assert_allclose(formula(x, y, check=False), expected, rtol=1e-10, atol=1e-10)
+
+
+ANALYTIC = st.recursive(
+    LEAVES,
+    lambda inner: st.one_of(
+        st.builds("({} + {})".format, inner, inner),
+        st.builds("{}*tanh({})".format, inner, inner),
+        st.builds("({})/(2 + sin({}))".format, inner, inner),
+        st.builds("{}({})".format, st.sampled_from(["sin", "cos", "tanh", "atan"]), inner),
+        st.builds("sqrt(2 + cos({}))".format, inner),
+        st.builds("log(2 + sin({}))".format, inner),
+        st.builds("exp(cos({}))".format, inner),
+        st.builds("(2 + sin({}))**{}".format, inner, st.sampled_from(["2", "-1", "1.5", "0.3", "cos(x)"])),
+    ),
+    max_leaves=6,
+)
+COMPLEX = {name: getattr(cmath, name) for name in ("sin", "cos", "tanh", "atan", "sqrt", "log", "exp")}
+
+
+@settings(max_examples=200, deadline=None)
+@given(ANALYTIC)
+def test_gradient_against_complex_step(text):
+    x, y, h = 0.6, -0.35, 1e-30
+    u, *gradient = Formula(text).value_and_gradient(x, y)
+    along_x = complex(eval(text, {"__builtins__": {}, **COMPLEX, "x": x + 1j * h, "y": y}))
+    along_y = complex(eval(text, {"__builtins__": {}, **COMPLEX, "x": x, "y": y + 1j * h}))
+    np.testing.assert_allclose(u, along_x.real, rtol=1e-11, atol=1e-11)
+    np.testing.assert_allclose(gradient, [along_x.imag / h, along_y.imag / h], rtol=1e-9, atol=1e-9)
+
+
+# The module itself
+
+
+def test_reading_does_not_import_numpy():
+    code = (
+        "import sys; from signorini.formula import Formula; f = Formula('r**(3/2)*cos(3*theta/2)')\n"
+        "try: Formula('sinn(x)')\n"
+        "except Exception: pass\n"
+        "f.gradient(); f.variables; hash(f); assert 'numpy' not in sys.modules"
+    )
+    source = Path(signorini.formula.__file__).parents[2]
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": str(source)})
+
+
+def test_examples_of_the_documentation():
+    outcome = doctest.testmod(signorini.formula)
+    assert outcome.attempted
+    assert not outcome.failed

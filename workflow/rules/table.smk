@@ -1,0 +1,21 @@
+# The error table in LaTeX and in Markdown.
+
+
+rule table:
+    input:
+        library("table.py"),
+        errors="results/{scene}/errors.csv",
+        rates="results/{scene}/rates.csv",
+    output:
+        tex="results/{scene}/table.tex",
+        markdown="results/{scene}/table.md",
+    params:
+        norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
+        elements=lambda wildcards: ",".join(scene(wildcards.scene).elements),
+        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
+    log:
+        "results/{scene}/logs/table.log",
+    shell:
+        "{PYTHON:q} {SCRIPTS}/table.py --errors {input.errors:q} --rates {input.rates:q}"
+        " --norms {params.norms} --elements {params.elements} --slope {params.slope}"
+        " --tex {output.tex:q} --markdown {output.markdown:q} 2>&1 | tee {log:q}"

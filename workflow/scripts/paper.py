@@ -1,0 +1,16 @@
+"""Typeset the paper with latexmk in a folder of its own, and keep the PDF only if it is clean."""
+
+from stage import options, run
+
+from signorini.typeset import typeset
+
+
+@options("--source", "--output", ("parts", {"nargs": "+"}))
+def main(arguments):
+    """main.tex and the generated files that it inputs to a PDF."""
+    pages = typeset(arguments.source, arguments.parts, arguments.output)
+    return f"paper: {pages} pages"
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

@@ -1,0 +1,29 @@
+"""Discretise a problem at one level, solve it, and store the solution with its proof."""
+
+import json
+
+from stage import options, run
+
+from signorini.mesh import read_domain
+from signorini.problem import discretize_on
+from signorini.results import write_solution
+from signorini.scene import ProblemStatement
+from signorini.solvers import solve
+
+
+@options("--statement", "--mesh", "--element", ("--n", {"type": int}), "--method", "--output")
+def main(arguments):
+    """Sections domain, boundary, data and load_quadrature of a scene, as JSON, to a .npz with u and multiplier."""
+    statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
+    domain = read_domain(arguments.mesh)
+    problem = discretize_on(domain.level(arguments.n), arguments.element, statement)
+    solution = solve(problem, arguments.method)
+    write_solution(arguments.output, problem, solution, arguments.n, domain.mesh_size(arguments.n))
+    return (
+        f"{arguments.element} n = {arguments.n}: {problem.free.size} free dofs, {solution.status}, "
+        f"KKT residual {solution.residual:.1e}, {solution.iterations} active-set steps, {solution.method}"
+    )
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

@@ -8,45 +8,11 @@ from itertools import pairwise
 from pathlib import Path
 
 from signorini.exceptions import FormulaError, SceneError
-from signorini.formula import Formula
 from signorini.schema import validated
+from signorini.statement import ProblemStatement
 from signorini.strict_yaml import load_yaml
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
-
-
-@dataclass(frozen=True)
-class Data:
-    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle."""
-
-    f: Formula
-    g: Formula
-    dirichlet: Formula
-    obstacle: Formula
-
-
-@dataclass(frozen=True)
-class ProblemStatement:
-    """What a discretisation depends on, and nothing else of a scene.
-
-    Parameters
-    ----------
-    domain, boundary : dict
-        The sections of these names of a scene.
-    data : Data
-    load_quadrature : str or int
-    """
-
-    domain: dict
-    boundary: dict
-    data: Data
-    load_quadrature: str | int
-
-    @classmethod
-    def from_mapping(cls, mapping):
-        """Build from a mapping with the keys domain, boundary, data and load_quadrature."""
-        data = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items()}
-        return cls(mapping["domain"], mapping["boundary"], Data(**data), mapping["load_quadrature"])
 
 
 @dataclass(frozen=True)

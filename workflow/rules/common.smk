@@ -1,8 +1,7 @@
 # Helpers of the rules: the configuration, the scenes, and what each job depends on.
-import ast
 import hashlib
 import json
-import os
+import re
 import shutil
 import sys
 from functools import cache
@@ -68,26 +67,24 @@ def library(script):
     return sorted(map(str, found))
 
 
+@cache
 def imported(path):
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        names = []
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-        elif isinstance(node, ast.Constant) and str(node.value).startswith("signorini."):
-            names = [node.value]  # a room named in a table of lazily imported ones
-        for name in names:
-            yield from module_files(name)
+    """The files that a file's import statements name, and the rooms it names in a table of lazy imports."""
+    text = path.read_text(encoding="utf-8")
+    names = {match for match in re.findall(r'"(signorini\.[\w.]+)"', text)}
+    for module, found in re.findall(r"^ *from (signorini[\w.]*|stage) import (\([^)]*\)|.*)$", text, re.M):
+        names |= {module, *(f"{module}.{name}" for name in re.findall(r"\w+", found))}
+    return {file for name in names for file in module_files(name)}
 
 
+@cache
 def module_files(name):
-    """The files that importing a module executes: its packages' __init__.py and itself."""
+    """The files that importing a module executes: its packages' __init__.py and itself; none if it is no module."""
     parts = name.split(".")
-    for root in (SOURCE, SCRIPTS):
-        for k in range(1, len(parts) + 1):
-            stem = root.joinpath(*parts[:k])
-            yield from (p for p in (stem / "__init__.py", stem.with_suffix(".py")) if p.is_file())
+    root = SOURCE if parts[0] == "signorini" else SCRIPTS
+    stems = [root.joinpath(*parts[: k + 1]) for k in range(len(parts))]
+    files = [file for stem in stems for file in (stem / "__init__.py", stem.with_suffix(".py"))]
+    return [file for file in files if file.is_file()]
 
 
 def statement(wildcards):

@@ -7,8 +7,8 @@ from stage import options, run
 from signorini.mesh import read_domain
 from signorini.problem import discretize_on
 from signorini.results import write_solution
-from signorini.scene import ProblemStatement
 from signorini.solvers import solve
+from signorini.statement import ProblemStatement
 
 
 @options("--statement", "--mesh", "--element", ("--n", {"type": int}), "--method", "--output")

@@ -74,8 +74,7 @@ class ReferenceErrors:
         if "h1" in self.norms:
             squares["h1"] = squares["l2"] + squares["h1_semi"]
         return {
-            norm: float(np.ldexp(np.sqrt(squares[norm]), self.exponent)) if norm in squares else None
-            for norm in NORMS
+            norm: float(np.ldexp(np.sqrt(squares[norm]), self.exponent)) if norm in squares else None for norm in NORMS
         }
 
     def _squared_l2(self, mesh, values):

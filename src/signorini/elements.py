@@ -23,10 +23,6 @@ class Element:
         """Values of the local shape functions, (3, q), at points of barycentric coordinates (3, q)."""
         return self.basis @ barycentric
 
-    def vertex_values(self, mesh, u):
-        """Values of the discrete function at the vertices of each triangle, shape (3, nt)."""
-        return self.basis.T @ u[self.triangle_dofs(mesh)]
-
 
 class _P1(Element):
     def size(self, mesh):
@@ -36,6 +32,10 @@ class _P1(Element):
     def triangle_dofs(self, mesh):
         """Global numbers of the local degrees of freedom, shape (3, nt)."""
         return mesh.t
+
+    def vertex_values(self, mesh, u):
+        """Values of the discrete function at the vertices of each triangle, shape (3, nt)."""
+        return mesh.corner_values(u)
 
     def boundary_dofs(self, mesh, label):
         """Degrees of freedom on the closed part `label` of the boundary, increasing."""
@@ -60,6 +60,10 @@ class _CR(Element):
     def triangle_dofs(self, mesh):
         """Global numbers of the local degrees of freedom, shape (3, nt)."""
         return mesh.t2f
+
+    def vertex_values(self, mesh, u):
+        """Values of the discrete function at the vertices of each triangle, shape (3, nt)."""
+        return self.basis.T @ u[self.triangle_dofs(mesh)]
 
     def boundary_dofs(self, mesh, label):
         """Degrees of freedom on the part `label` of the boundary, increasing."""

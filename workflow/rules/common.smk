@@ -89,7 +89,11 @@ def module_files(name):
 
 def statement(wildcards):
     """What a discretisation depends on, as JSON: it reruns when this changes and only then."""
-    return as_json(scene(wildcards.scene).section("domain", "boundary", "data", "load_quadrature"))
+    return statement_of(wildcards.scene)
+
+
+def statement_of(name):
+    return as_json(scene(name).section("domain", "boundary", "data", "load_quadrature"))
 
 
 def as_json(value):

@@ -15,7 +15,7 @@ def output_names(name):
 
 
 def paper_output():
-    files = ["check.csv", "check.txt", "macros.tex"] + (["paper.pdf"] if LATEX else [])
+    files = ["check.csv", "check.txt"] + (["paper.pdf"] if LATEX else [])
     return [f"results/paper/{file}" for file in files]
 
 
@@ -81,6 +81,24 @@ rule verify:
         "{PYTHON:q} {SCRIPTS}/verify.py --check {input.check:q} --output {output:q} 2>&1 | tee {log:q}"
 
 
+rule effects:
+    input:
+        library("effects.py"),
+        errors="results/paper/errors.csv",
+    output:
+        "results/paper/effects.csv",
+    params:
+        statement=lambda wildcards: statement_of("paper"),
+        scene=lambda wildcards: as_json(scene("paper").section("elements", "levels", "truth", "norms")),
+    log:
+        "results/paper/logs/effects.log",
+    benchmark:
+        "results/paper/benchmarks/effects.tsv"
+    shell:
+        "{PYTHON:q} {SCRIPTS}/effects.py --statement {params.statement:q} --scene {params.scene:q}"
+        " --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"
+
+
 rule macros:
     input:
         library("macros.py"),
@@ -88,6 +106,7 @@ rule macros:
         rates="results/paper/rates.csv",
         surface="results/paper/surface.npz",
         check="results/paper/check.csv",
+        effects="results/paper/effects.csv",
         published=PUBLISHED,
     output:
         "results/paper/macros.tex",
@@ -98,7 +117,7 @@ rule macros:
     shell:
         "{PYTHON:q} {SCRIPTS}/macros.py --errors {input.errors:q} --rates {input.rates:q}"
         " --surface {input.surface:q} --reference-n {params.n} --check {input.check:q}"
-        " --published {input.published:q} --output {output:q} 2>&1 | tee {log:q}"
+        " --published {input.published:q} --effects {input.effects:q} --output {output:q} 2>&1 | tee {log:q}"
 
 
 rule paper:

@@ -42,12 +42,3 @@ def squared_l2(areas, values):
     """Squared L2 norm of a piecewise affine function by its vertex values (3, nt); exact."""
     density = (values * values).sum(axis=0) + values.sum(axis=0) ** 2
     return float(areas @ density if np.ndim(areas) else areas * density.sum()) / 12.0
-
-
-def gradients(mesh, values):
-    """Gradient of a piecewise affine function, shape (2, nt), unit of the values per length."""
-    a, b, c = (mesh.p[:, v] for v in mesh.t)
-    ab, ac = b - a, c - a
-    twice_area = ab[0] * ac[1] - ab[1] * ac[0]
-    d1, d2 = (values[1] - values[0]) / twice_area, (values[2] - values[0]) / twice_area
-    return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])

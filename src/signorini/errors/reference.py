@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.elements import element as find_element
-from signorini.errors.projection import gradients, project, prolong, squared_l2
+from signorini.errors.projection import project, prolong, squared_l2
 from signorini.exceptions import MeshError
 from signorini.quadrature import triangle_rule
 
@@ -85,11 +85,11 @@ class ReferenceErrors:
 
     def _squared_semi(self, mesh, values):
         mean, rest = self._at(self._constant, mesh)
-        return rest + _squared_constant(mesh.area, mean - gradients(mesh, values))
+        return rest + _squared_constant(mesh.area, mean - mesh.gradients(values))
 
     def _at(self, pyramid, mesh):
         for level, *found in pyramid:
-            if level.number_of_triangles == mesh.number_of_triangles and np.array_equal(level.t[:, :1], mesh.t[:, :1]):
+            if level.same_as(mesh):
                 return found
         raise MeshError(
             f"mesh: {mesh.number_of_triangles} triangles do not nest in the reference's "
@@ -104,7 +104,7 @@ class ReferenceErrors:
     @cached_property
     def _constant(self):
         """The same for the gradient."""
-        return list(_descend(self.mesh, gradients(self.mesh, self.values), _mean))
+        return list(_descend(self.mesh, self.mesh.gradients(self.values), _mean))
 
     def _squared_by_rule(self, mesh, values):
         between = []

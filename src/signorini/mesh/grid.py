@@ -192,6 +192,34 @@ class Grid:
         names = {label: self.boundary_facets(label) for label in sorted(set(self.labels))}
         return MeshTri(self.p, self.t, sort_t=False).with_boundaries(names)
 
+    def same_as(self, other):
+        """Whether `other` is the same triangulation, numbered alike."""
+        return self == other
+
+    def corner_values(self, u):
+        """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
+        rows = u.reshape(self.ny + 1, self.nx + 1)
+        values = np.empty((3, 2, self.ny, self.nx), dtype=u.dtype)
+        for kind, corners in enumerate(self.corners):
+            for k, corner in enumerate(corners):
+                values[k, kind] = self.window(rows, corner)
+        return values.reshape(3, -1)
+
+    def gradients(self, values):
+        """Gradients of a piecewise affine function given by its values at the corners; see `Triangulation`.
+
+        The legs at corner 0 lie along the axes, so each derivative is one difference.
+        """
+        values = values.reshape(3, 2, -1)
+        result = np.empty((2, *values.shape[1:]))
+        for kind, (origin, *ends) in enumerate(self.corners):
+            for k, end in enumerate(ends, start=1):
+                axis = 0 if end[0] != origin[0] else 1
+                step = (end[axis] - origin[axis]) * self.spacing[axis]
+                np.subtract(values[k, kind], values[0, kind], out=result[axis, kind])
+                result[axis, kind] /= step
+        return result.reshape(2, -1)
+
     def coarser(self):
         """The grid of half as many cells along each side, or None where a count is odd."""
         if self.nx % 2 or self.ny % 2:

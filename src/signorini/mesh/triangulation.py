@@ -99,6 +99,32 @@ class Triangulation:
         """Vertices on the closed facets that carry `label`, increasing, each once."""
         return np.unique(self.facets[:, self.boundary_facets(label)])
 
+    def same_as(self, other):
+        """Whether `other` is the same triangulation, numbered alike."""
+        return self is other or (np.array_equal(self.t, other.t) and np.array_equal(self.p, other.p))
+
+    def corner_values(self, u):
+        """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
+        return u[self.t]
+
+    def gradients(self, values):
+        """Gradients of a piecewise affine function given by its values at the corners.
+
+        Parameters
+        ----------
+        values : ndarray, shape (3, nt)
+
+        Returns
+        -------
+        ndarray, shape (2, nt)
+            Unit of the values per length.
+        """
+        a, b, c = (self.p[:, v] for v in self.t)
+        ab, ac = b - a, c - a
+        twice_area = ab[0] * ac[1] - ab[1] * ac[0]
+        d1, d2 = (values[1] - values[0]) / twice_area, (values[2] - values[0]) / twice_area
+        return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])
+
     def refined(self):
         """Each triangle cut into four; the labels are inherited."""
         return Triangulation(self.skfem.refined(), parent=self)

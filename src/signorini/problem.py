@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.elements import element as find_element
-from signorini.exceptions import SceneError
+from signorini.exceptions import FormulaError, SceneError
 from signorini.load import assemble_load
 from signorini.mesh import Domain, Grid
 from signorini.stencil import apply_stiffness
@@ -30,6 +30,8 @@ class Problem:
         Degrees of freedom on the Dirichlet part, increasing.
     fixed_values : ndarray, shape (nd,)
         Their values, unit of u.
+    coefficient : ndarray, shape (nt,), optional
+        Diffusion coefficient of each triangle; None where it is 1 throughout.
     """
 
     element: str
@@ -39,11 +41,12 @@ class Problem:
     lower: np.ndarray
     fixed: np.ndarray
     fixed_values: np.ndarray
+    coefficient: np.ndarray | None = None
 
     @cached_property
     def A(self):
-        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), dimensionless; assembled when first asked for."""
-        return assemble_stiffness(self.mesh, find_element(self.element))
+        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when first asked for."""
+        return assemble_stiffness(self.mesh, find_element(self.element), self.coefficient)
 
     @cached_property
     def free(self):
@@ -54,8 +57,8 @@ class Problem:
 
     @cached_property
     def grid(self):
-        """The mesh where it is a uniform `Grid`, else None."""
-        return self.mesh if isinstance(self.mesh, Grid) else None
+        """The mesh where a stencil is the whole matrix: a uniform `Grid` with coefficient 1; else None."""
+        return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
 
     def apply(self, u):
         """A @ u, without the matrix where the mesh is a grid and the matrix has not been built."""
@@ -114,16 +117,46 @@ def discretize_on(mesh, element, statement):
         lower=data.obstacle(*kind.nodes(mesh, contact)),
         fixed=fixed,
         fixed_values=data.dirichlet(*kind.nodes(mesh, fixed)),
+        coefficient=_coefficient(mesh, data.coefficient),
     )
 
 
-def assemble_stiffness(mesh, element):
-    """Stiffness matrix of the (broken) Dirichlet form by scikit-fem, CSR (ndof, ndof), dimensionless."""
+def _coefficient(mesh, formula):
+    """The coefficient at the centroids, None where the formula is the number 1; it must be positive."""
+    if formula.constant == 1.0:
+        return None
+    x, y = mesh.p[:, mesh.t].mean(axis=1)
+    values = formula(x, y)
+    if not np.all(values > 0.0):
+        k = int(np.argmin(values))
+        raise FormulaError(
+            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be positive"
+        )
+    return values
+
+
+def assemble_stiffness(mesh, element, coefficient=None):
+    """Stiffness matrix of the (broken) Dirichlet form by scikit-fem.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : Element
+    coefficient : ndarray, shape (nt,), optional
+        Diffusion coefficient of each triangle, 1 where not given.
+
+    Returns
+    -------
+    scipy.sparse.csr_matrix, shape (ndof, ndof)
+        Unit of the coefficient.
+    """
     from skfem import Basis, BilinearForm
     from skfem.helpers import dot, grad
 
     @BilinearForm
-    def laplace(u, v, _):
-        return dot(grad(u), grad(v))
+    def laplace(u, v, w):
+        return w.k * dot(grad(u), grad(v))
 
-    return laplace.assemble(Basis(mesh.skfem, element.skfem(), intorder=1)).tocsr()
+    basis = Basis(mesh.skfem, element.skfem(), intorder=1)
+    k = np.ones((1, 1)) if coefficient is None else coefficient[:, None]
+    return laplace.assemble(basis, k=k).tocsr()

@@ -7,12 +7,13 @@ from signorini.formula import Formula
 
 @dataclass(frozen=True)
 class Data:
-    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle."""
+    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle, diffusion coefficient."""
 
     f: Formula
     g: Formula
     dirichlet: Formula
     obstacle: Formula
+    coefficient: Formula = Formula("1", "data.coefficient")
 
 
 @dataclass(frozen=True)

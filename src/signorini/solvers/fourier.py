@@ -47,7 +47,7 @@ def obstruction(problem):
     """Say why the route does not apply to a problem, or None where it does."""
     grid = problem.grid
     if grid is None:
-        return "the mesh is not a uniform grid"
+        return "the mesh is not a uniform grid" if problem.coefficient is None else "the coefficient is not 1"
     if len(grid.sides("contact")) > 1:
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:

@@ -25,6 +25,7 @@ class StoredSolution:
     contact: np.ndarray
     lower: np.ndarray
     residual: float
+    accuracy: float
     status: str
     iterations: int
     method: str
@@ -45,6 +46,7 @@ def write_solution(path, problem, solution, n, h):
         contact=problem.contact,
         lower=problem.lower,
         residual=solution.residual,
+        accuracy=solution.accuracy,
         status=solution.status,
         iterations=solution.iterations,
         method=solution.method,

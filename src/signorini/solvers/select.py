@@ -53,9 +53,9 @@ def solve(problem, method="auto", guess=None):
     module, function = METHODS[method]
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
-    u, active, iterations = getattr(importlib.import_module(module), function)(scaled, guess)
+    u, active, iterations, accuracy = getattr(importlib.import_module(module), function)(scaled, guess)
     residual, multiplier = kkt_residual(scaled, u)
-    status = status_of(residual)
+    status = status_of(residual, accuracy)
     if status == "failed":
         raise SolverError(
             f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
@@ -67,6 +67,7 @@ def solve(problem, method="auto", guess=None):
         multiplier=np.ldexp(multiplier, exponent),
         active=active,
         residual=residual,
+        accuracy=accuracy,
         status=status,
         iterations=iterations,
         method=method,

@@ -23,8 +23,10 @@ class Solution:
         Where the constraint binds.
     residual : float
         Largest relative violation of the KKT conditions (`kkt_residual`), dimensionless.
+    accuracy : float
+        Relative error that rounding of the matrix alone may cause, as far as the route can tell, dimensionless.
     status : {"solved", "inaccurate"}
-        Never better than the residual.
+        Never better than the residual or the accuracy.
     iterations : int
         Active-set steps.
     method : str
@@ -37,6 +39,7 @@ class Solution:
     multiplier: np.ndarray
     active: np.ndarray
     residual: float
+    accuracy: float
     status: str
     iterations: int
     method: str
@@ -93,8 +96,8 @@ def _row_bound(problem):
     return float(problem.A.diagonal().max())
 
 
-def status_of(residual):
-    """Name a residual: "solved" up to 1e-10, "inaccurate" up to 1e-6, "failed" beyond."""
-    if residual <= SOLVED:
+def status_of(residual, accuracy=0.0):
+    """Name a residual and an accuracy: "solved" up to 1e-10, "failed" for a residual above 1e-6, else "inaccurate"."""
+    if max(residual, accuracy) <= SOLVED:
         return "solved"
     return "inaccurate" if residual <= INACCURATE else "failed"

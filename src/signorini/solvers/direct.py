@@ -13,6 +13,7 @@ from signorini.exceptions import SolverError
 from signorini.solvers.contact import DenseContact, solve_contact
 
 _LEAF = 8
+_SINGULAR = 1e-13  # a pivot this small against its diagonal entry is round-off
 
 
 def solve_direct(problem, guess=None):
@@ -24,16 +25,13 @@ def solve_direct(problem, guess=None):
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
     if not problem.free.size:
-        return u, np.zeros(0, dtype=bool), 0
+        return u, np.zeros(0, dtype=bool), 0, 0.0
     u[problem.contact] = problem.lower
     condensed = Condensed(problem)
     load = problem.b - problem.A @ u
     if not problem.contact.size:
-        return (
-            _refined(problem, condensed, u + condensed.extend(load, np.zeros(0))),
-            np.zeros(0, dtype=bool),
-            0,
-        )
+        u = _refined(problem, condensed, u + condensed.extend(load, np.zeros(0)))
+        return u, np.zeros(0, dtype=bool), 0, _accuracy(problem, condensed)
     operator = DenseContact(condensed.S)
     result = solve_contact(operator, condensed.reduce(load), guess=guess, singular=problem.fixed.size == 0)
     u += condensed.extend(load, result.w)
@@ -102,6 +100,11 @@ class Condensed:
             ) from error
         if np.any(self.factors.perm_r != np.arange(A.shape[0])):
             raise SolverError("stiffness matrix is not positive definite: is the mesh degenerate?")
+        if np.any(self.factors.U.diagonal() <= _SINGULAR * (A.diagonal() + shift)):
+            raise SolverError(
+                "singular stiffness matrix: a part of the body is loose, or its triangles are too stretched; "
+                "join it to a dirichlet or contact part, or choose other cell shapes"
+            )
         self.S_shifted = self._trailing_block()
         self.S = self.S_shifted - self.shift * np.eye(self.count)
 

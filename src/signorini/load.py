@@ -83,14 +83,23 @@ def _add_flux(b, mesh, element, g):
     t2f, t, dofs = mesh.t2f, mesh.t, element.triangle_dofs(mesh)
     on_boundary = np.zeros(mesh.number_of_facets, dtype=bool)
     on_boundary[mesh.boundary_facets("neumann")] = True
+    needs_normal = getattr(g, "needs_normal", False)
     s, weights = interval_rule(_EDGE_DEGREE)
     for facet, (i, j) in enumerate(((0, 1), (1, 2), (0, 2))):
         behind = np.flatnonzero(on_boundary[t2f[facet]])
         start, end = mesh.p[:, t[i, behind]], mesh.p[:, t[j, behind]]
-        length = np.hypot(*(end - start))
+        along = end - start
+        length = np.hypot(*along)
+        normal = _outward(along, mesh.p[:, t[3 - i - j, behind]] - start, length) if needs_normal else ()
         for point, weight in zip(s, weights, strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[[i, j], 0] = 1.0 - point, point
-            values = weight * length * g(*((1.0 - point) * start + point * end))
+            values = weight * length * g(*((1.0 - point) * start + point * end), *normal)
             for k, phi in enumerate(element.shape(barycentric)[:, 0]):
                 np.add.at(b, dofs[k, behind], phi * values)
+
+
+def _outward(along, inward, length):
+    """Unit normal of facets with direction `along`, pointing away from `inward`; all of shape (2, k)."""
+    normal = np.stack([along[1], -along[0]]) / length
+    return np.where((normal * inward).sum(axis=0) > 0.0, -normal, normal)

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from signorini.exceptions import SceneError
+
 _CENTROID = (np.full((3, 1), 1 / 3), np.ones(1))
 _MIDPOINTS = (np.array([[0.5, 0.0, 0.5], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5]]), np.full(3, 1 / 3))
 _VERTICES = (np.eye(3), np.full(3, 1 / 3))
@@ -29,11 +31,18 @@ def triangle_rule(rule, number_of_triangles=0):
         Barycentric coordinates.
     weights : ndarray, shape (q,)
         Dimensionless, sum 1.
+
+    Raises
+    ------
+    SceneError
+        If there is no such rule.
     """
     if rule in _NAMED:
         return _NAMED[rule]
     if rule == "exact":
         rule = _EXACT_DEGREE if number_of_triangles < _FINE else _EXACT_DEGREE_FINE
+    if not isinstance(rule, int) or rule < 0:
+        raise SceneError(f"unknown quadrature rule {rule!r}; known: {', '.join(_NAMED)}, exact, or a polynomial degree")
     return _collapsed_gauss(rule)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from signorini.elements import element as find_element
 from signorini.errors.projection import project, prolong, squared_l2
-from signorini.exceptions import MeshError
+from signorini.exceptions import MeshError, SceneError
 from signorini.quadrature import triangle_rule
 
 NORMS = ("l2", "h1_semi", "h1")
@@ -34,9 +34,17 @@ class ReferenceErrors:
         Of ``"l2"``, ``"h1_semi"``, ``"h1"``; what is not named is not computed.
     quadrature : str
         ``"exact"`` or the name of a rule applied on the reference's mesh.
+
+    Raises
+    ------
+    SceneError
+        If a norm is unknown.
     """
 
     def __init__(self, mesh, element, u, norms=NORMS, quadrature="exact"):
+        unknown = [norm for norm in norms if norm not in NORMS]
+        if unknown:
+            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(NORMS)}")
         self.mesh = mesh
         self.norms = tuple(norms)
         self.quadrature = quadrature
@@ -88,13 +96,21 @@ class ReferenceErrors:
         return rest + _squared_constant(mesh.area, mean - mesh.gradients(values))
 
     def _at(self, pyramid, mesh):
-        for level, *found in pyramid:
-            if level.same_as(mesh):
-                return found
-        raise MeshError(
-            f"mesh: {mesh.number_of_triangles} triangles do not nest in the reference's "
-            f"{self.mesh.number_of_triangles}; the reference's n must be a power of two times n"
-        )
+        _, *found = pyramid[len(self._finer_than(mesh))]
+        return found
+
+    def _finer_than(self, mesh):
+        """The meshes from the reference's down to the one that was refined from `mesh`."""
+        finer, level = [], self.mesh
+        while not level.same_as(mesh):
+            finer.append(level)
+            level = level.coarser()
+            if level is None:
+                raise MeshError(
+                    f"mesh: {mesh.number_of_triangles} triangles do not nest in the reference's "
+                    f"{self.mesh.number_of_triangles}; the reference's n must be a power of two times n"
+                )
+        return finer
 
     @cached_property
     def _affine(self):
@@ -107,12 +123,7 @@ class ReferenceErrors:
         return list(_descend(self.mesh, self.mesh.gradients(self.values), _mean))
 
     def _squared_by_rule(self, mesh, values):
-        between = []
-        finer = self.mesh
-        while finer.number_of_triangles > mesh.number_of_triangles:
-            between.append(finer)
-            finer = finer.coarser()
-        for finer in reversed(between):
+        for finer in reversed(self._finer_than(mesh)):
             values = prolong(finer, values)
         points, weights = triangle_rule(self.quadrature)
         difference = self.values - values

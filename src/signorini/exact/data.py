@@ -1,0 +1,69 @@
+"""The data of a problem, derived from its exact solution."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from signorini.exact.solution import Diffused
+from signorini.exceptions import FormulaError
+from signorini.formula import Formula
+from signorini.statement import Data
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A datum derived from an exact solution, called like a `Formula`.
+
+    Parameters
+    ----------
+    field : str
+        Its name, for error messages.
+    function : callable
+        From coordinates, and the outward unit normal where it needs one, to values.
+    constant : float or None
+        Its value where it is known to be the same everywhere.
+    needs_normal : bool
+        Whether it is called with the outward unit normal, as ``g(x, y, nx, ny)``: a flux, which depends on the side.
+    """
+
+    field: str
+    function: Callable
+    constant: float | None = None
+    needs_normal: bool = False
+
+    def __call__(self, x, y, *normal, check=True):
+        """Evaluate at points, where FormulaError names the first value that is not finite, if they are checked."""
+        import numpy as np
+
+        from signorini.formula.taylor import first_non_finite
+
+        with np.errstate(all="ignore"):
+            values = self.function(x, y, *normal)
+        bad = first_non_finite(values, x, y) if check else None
+        if bad:
+            raise FormulaError(
+                f"{self.field}: value derived from the exact solution is {bad[0]!r} at (x, y) = "
+                f"({bad[1]!r}, {bad[2]!r}); change truth, or type the value"
+            )
+        return values
+
+
+def derived_data(exact):
+    """Data under which `exact` is the solution: its load f, its flux g, its values, and its obstacle.
+
+    Parameters
+    ----------
+    exact : ExactSolution
+
+    Returns
+    -------
+    Data
+        Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The obstacle is the
+        solution's own, or zero where it has none.
+    """
+    return Data(
+        f=Derived("data.f", exact.load, exact.constant_load),
+        g=Derived("data.g", exact.flux, needs_normal=True),
+        dirichlet=Derived("data.dirichlet", exact.value),
+        obstacle=exact.obstacle or Formula("0", "data.obstacle"),
+        **({"coefficient": exact.coefficient} if isinstance(exact, Diffused) else {}),
+    )

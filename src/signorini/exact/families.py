@@ -1,0 +1,198 @@
+"""Named exact solutions with their parameters. Reading them imports no numpy: scenes are validated with it."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from signorini.exact.solution import Diffused, FormulaSolution
+from signorini.exceptions import SceneError
+from signorini.formula import Formula
+from signorini.schema import nearest
+
+
+class Parameter(NamedTuple):
+    """A number with its default and the range it must lie in."""
+
+    default: float
+    least: float = -math.inf
+    open: bool = False  # whether `least` itself is excluded
+    meaning: str = ""
+
+    def read(self, given, field):
+        """Value of a number, or of a formula without variables such as 1/3; SceneError if out of range."""
+        formula = Formula(given, field)
+        # Evaluating a formula imports numpy, which a plain number does not need.
+        value = float(given) if isinstance(given, int | float) else formula.constant
+        if value is None:
+            raise SceneError(f"{field}: {given!r} is not constant; write a number")
+        if value < self.least or (self.open and value == self.least):
+            raise SceneError(f"{field}: {value:g} is not valid; it must be {'>' if self.open else '>='} {self.least:g}")
+        return value
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of exact solutions with contact on the bottom side of the body.
+
+    Parameters
+    ----------
+    title : str
+        The solution in one line.
+    parameters : dict of str to Parameter
+    build : callable
+        From the parameters, by name, to an `ExactSolution`.
+    """
+
+    title: str
+    parameters: dict
+    build: object
+
+
+def family(name, parameters=None, field="truth"):
+    """Build a named exact solution.
+
+    Parameters
+    ----------
+    name : str
+        One of `FAMILIES`.
+    parameters : dict, optional
+        Some of the family's parameters, each a number or a constant formula; the others have defaults.
+    field : str
+        Where the scene says so, for error messages.
+
+    Returns
+    -------
+    ExactSolution
+
+    Raises
+    ------
+    SceneError, FormulaError
+        If the family or a parameter is unknown, or a value is no number or out of range.
+
+    Examples
+    --------
+    >>> exact = family("punch", {"half_width": "1/3"})
+    >>> float(exact.value(0.1, -0.0)), float(exact.flux(0.0, 0.0, 0.0, -1.0))
+    (0.0, 0.3333333333333333)
+    """
+    if name not in FAMILIES:
+        raise SceneError(f"{field}.family: unknown family {name!r}; {nearest(name, FAMILIES)}")
+    known, given = FAMILIES[name].parameters, parameters or {}
+    for key in given:
+        if key not in known:
+            raise SceneError(f"{field}.parameters: {name} has no parameter {key!r}; {nearest(key, known)}")
+    values = {
+        key: parameter.read(given.get(key, parameter.default), f"{field}.parameters.{key}")
+        for key, parameter in known.items()
+    }
+    return FAMILIES[name].build(**values)
+
+
+def read_exact(truth, coefficient=None, field="truth"):
+    """Build the exact solution that the section ``truth`` of a scene describes.
+
+    Parameters
+    ----------
+    truth : dict
+        Either ``u``, a formula, with ``critical_points`` and ``singular_points``, lists of [x, y], where it has
+        some (singular ones default to the critical ones); or ``family``, a name, with ``parameters``.
+    coefficient : Formula, optional
+        Diffusion coefficient, 1 where not given.
+    field : str
+        For error messages.
+
+    Returns
+    -------
+    ExactSolution
+    """
+    exact = _read(truth, field)
+    return exact if coefficient is None or coefficient.constant == 1.0 else Diffused(exact, coefficient)
+
+
+def _read(truth, field):
+    if ("u" in truth) == ("family" in truth):
+        raise SceneError(f"{field}: an exact solution needs either u, a formula, or family, a name; give one of them")
+    if "family" in truth:
+        return family(truth["family"], truth.get("parameters"), field)
+    critical, singular = (
+        tuple((float(x), float(y)) for x, y in truth.get(key) or ()) for key in ("critical_points", "singular_points")
+    )
+    return FormulaSolution(Formula(truth["u"], f"{field}.u"), None, critical, singular or critical)
+
+
+def _corner(**parameters):
+    from signorini.exact.harmonic import Corner
+
+    return Corner(**parameters)
+
+
+def _punch(**parameters):
+    from signorini.exact.harmonic import Punch
+
+    return Punch(**parameters)
+
+
+def _from_text(u, obstacle, critical_points=()):
+    return FormulaSolution(Formula(u, "truth.u"), Formula(obstacle, "truth.obstacle"), critical_points)
+
+
+_BUMP = "0.1*sin(3*x)"
+
+
+def _smooth(x0):
+    u = f"({_BUMP} + 8*pos(x - ({x0!r}))**3)*(1 - y**2) - y*(1 - y)*8*pos({x0!r} - x)**3"
+    return _from_text(u, _BUMP, ((x0, 0.0),))
+
+
+def _biactive(left, right):
+    if left > right:
+        raise SceneError(f"truth.parameters.left: {left:g} is not valid; it must be <= right = {right:g}")
+    u = f"({_BUMP} + 20*pos(x - ({right!r}))**3)*(1 - y**2) - y*(1 - y)*20*pos({left!r} - x)**3"
+    # No critical point is named: any point of the interval serves, and the mesh decides which one a solution takes.
+    return _from_text(u, _BUMP)
+
+
+def _uniform_load(c, alpha):
+    free = f"({c!r})*(1 - y**2)/2"
+    held = f"({c!r})*y*(1 - y)/2 + ({alpha!r})*(1 - y)"
+    return _from_text(free if alpha <= c / 2 else held, repr(alpha))
+
+
+def _patch(alpha):
+    return _from_text(f"({alpha!r})*(1 - y)", repr(alpha))
+
+
+_PLACE = {"x0": Parameter(0.0, meaning="abscissa"), "y0": Parameter(0.0, meaning="ordinate of the contact side")}
+
+FAMILIES = {
+    "corner": Family(
+        "amplitude r^(3/2) cos(3 theta/2) about the critical point (x0, y0); f = 0",
+        {"amplitude": Parameter(1.0, 0.0, True, "factor of u"), **_PLACE},
+        _corner,
+    ),
+    "punch": Family(
+        "contact for |x - x0| <= half_width, where du/dnu = sqrt(half_width^2 - (x - x0)^2); f = 0",
+        {"half_width": Parameter(1.0, 0.0, True, "half the length of the contact zone"), **_PLACE},
+        _punch,
+    ),
+    "smooth": Family(
+        "twice differentiable, one critical point (x0, 0), obstacle 0.1 sin 3x",
+        {"x0": Parameter(0.5, meaning="abscissa of the critical point")},
+        _smooth,
+    ),
+    "biactive": Family(
+        "u = obstacle and du/dnu = 0 for left <= x <= right on y = 0, obstacle 0.1 sin 3x",
+        {"left": Parameter(0.3, meaning="end of du/dnu > 0"), "right": Parameter(0.7, meaning="end of contact")},
+        _biactive,
+    ),
+    "uniform-load": Family(
+        "0 <= y <= 1 under the load c: no contact for alpha < c/2, full contact for alpha > c/2",
+        {"c": Parameter(1.0, meaning="load"), "alpha": Parameter(0.0, meaning="obstacle")},
+        _uniform_load,
+    ),
+    "patch": Family(
+        "u = alpha (1 - y), full contact at y = 0: exact to round-off for every element",
+        {"alpha": Parameter(1.0, 0.0, meaning="obstacle")},
+        _patch,
+    ),
+}

@@ -1,6 +1,6 @@
 """The statement of a problem: what a discretisation depends on, and nothing else of a scene."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from signorini.formula import Formula
 
@@ -13,7 +13,7 @@ class Data:
     g: Formula
     dirichlet: Formula
     obstacle: Formula
-    coefficient: Formula = Formula("1", "data.coefficient")
+    coefficient: Formula = field(default_factory=lambda: Formula("1", "data.coefficient"))
 
 
 @dataclass(frozen=True)

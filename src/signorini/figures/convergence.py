@@ -6,8 +6,16 @@ import matplotlib
 
 from signorini.figures.style import ACCENT, BLACK, GREY, STYLE, TEXT_WIDTH, new_figure
 
-NORMS = {"l2": "$L^2$ error", "h1": "$H^1$ error", "h1_semi": "broken $H^1$ seminorm of the error"}
-ORDERS = {"l2": 2, "h1": 1, "h1_semi": 1}  # of the theory, and of the slope triangle
+NORMS = {  # a norm that is not here goes by its own name
+    "l2": "$L^2$ error",
+    "h1": "$H^1$ error",
+    "h1_semi": "broken $H^1$ seminorm of the error",
+    "energy": "error in the energy norm",
+    "trace_l2": r"$L^2(\Gamma_C)$ error of $u$",
+    "multiplier_l2": r"$L^2(\Gamma_C)$ error of $k\,\mathrm{d}u/\mathrm{d}\nu$",
+    "critical_points": "distance of the critical points",
+}
+ORDERS = {"l2": 2}  # of the theory, and of the slope triangle; of any other norm 1
 ELEMENTS = {
     "P1": ("CF (P1)", {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"}),
     "CR": ("NCF (CR)", {"color": ACCENT, "marker": "s", "linestyle": (0, (4, 2))}),
@@ -24,7 +32,7 @@ def draw_convergence(errors, norm, slopes=None):
     errors : sequence of mapping
         Rows of ``errors.csv``: ``element``, ``n``, ``h`` and the column `norm`, as text or numbers.
     norm : str
-        "l2", "h1" or "h1_semi".
+        A column of `errors`; those of `NORMS` have a name in words.
     slopes : mapping of str to float, optional
         The average slope of each element, named in the legend.
 
@@ -35,12 +43,16 @@ def draw_convergence(errors, norm, slopes=None):
     Raises
     ------
     ValueError
-        If the norm or an element has no style here.
+        If no error in this norm is given, or an element has no style here.
     """
-    _known("norm", [norm], NORMS)
-    errors = [row for row in errors if row[norm] not in (None, "")]
+    if not any(norm in row for row in errors):
+        given = [name for name in NORMS if any(name in row for row in errors)]
+        raise ValueError(f"no errors in the norm {norm!r}; known: {', '.join(given)}")
+    errors = [row for row in errors if row.get(norm) not in (None, "") and math.isfinite(float(row[norm]))]
     names = dict.fromkeys(row["element"] for row in errors)
-    _known("element", names, ELEMENTS)
+    for name in names:
+        if name not in ELEMENTS:
+            raise ValueError(f"no style for the element {name!r}; known: {', '.join(ELEMENTS)}")
     figure = new_figure(0.49 * TEXT_WIDTH, 0.43 * TEXT_WIDTH)
     axes = figure.add_axes((0.205, 0.16, 0.775, 0.805), xscale="log", yscale="log")
     for name in names:
@@ -51,16 +63,10 @@ def draw_convergence(errors, norm, slopes=None):
         axes.plot([float(r["h"]) for r in rows], [float(r[norm]) for r in rows], label=label, **style)
     _set_limits(axes, [float(row["h"]) for row in errors], [float(row[norm]) for row in errors])
     _label_levels(axes, {int(row["n"]): float(row["h"]) for row in errors})
-    _draw_triangle(axes, _lowest(errors, norm), ORDERS[norm])
-    axes.set(xlabel="mesh width $h$", ylabel=NORMS[norm])
+    _draw_triangle(axes, _lowest(errors, norm), ORDERS.get(norm, 1))
+    axes.set(xlabel="mesh width $h$", ylabel=NORMS.get(norm, norm.replace("_", " ")))
     axes.legend(loc="upper left", handlelength=2.6, borderaxespad=0.2)
     return figure
-
-
-def _known(kind, names, table):
-    for name in names:
-        if name not in table:
-            raise ValueError(f"no style for the {kind} {name!r}; known: {', '.join(table)}")
 
 
 def _set_limits(axes, widths, errors):
@@ -73,9 +79,10 @@ def _set_limits(axes, widths, errors):
 
 
 def _label_levels(axes, levels):
-    """Put a tick at every mesh width, and the value 1/n at as many as there is room for."""
-    step = -(-len(levels) // MOST_TICKS)
-    labels = [f"1/{n}" if k % step == 0 else "" for k, n in enumerate(levels)]
+    """Put a tick at every mesh width, and its value, where it can be as 1/n, at as many as there is room for."""
+    names = [f"1/{n}" if math.isclose(n * h, 1) else f"{h:.2g}" for n, h in levels.items()]
+    step = -(-len(levels) // (MOST_TICKS if max(map(len, names), default=0) <= 6 else MOST_TICKS // 2))
+    labels = [name if k % step == 0 else "" for k, name in enumerate(names)]
     axes.set_xticks(list(levels.values()), labels)
     axes.minorticks_off()
 

@@ -16,6 +16,9 @@ METHODS = {
 }
 
 
+_TOUCHING = 2.0**-44  # of max |u|: above the round-off of every route, below any gap that the mesh resolves
+
+
 def solve(problem, method="auto", guess=None):
     """Solve a discrete Signorini problem.
 
@@ -44,7 +47,7 @@ def solve(problem, method="auto", guess=None):
     >>> scene = signorini.load_scene("config/scenes/paper.yaml")
     >>> solution = signorini.solve(signorini.discretize(scene, "P1", 64))
     >>> solution.status, round(float(solution.u[0]), 8)
-    ('solved', 0.60808629)
+    ('solved', 0.60808628)
     """
     _check_data(problem)
     if not problem.fixed.size:
@@ -54,6 +57,8 @@ def solve(problem, method="auto", guess=None):
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
     u, active, iterations, accuracy = getattr(importlib.import_module(module), function)(scaled, guess)
+    active = _touching(scaled, u, active)
+    u[scaled.contact[active]] = scaled.lower[active]
     residual, multiplier = kkt_residual(scaled, u)
     status = status_of(residual, accuracy)
     if status == "failed":
@@ -87,7 +92,8 @@ def _choose(problem, method):
         if why_not:
             raise SolverError(f"solver.method: fourier does not apply, {why_not}; use auto or direct")
         return method, "asked for"
-    return ("direct", why_not) if why_not else ("fourier", "uniform grid, equal conditions beside the contact side")
+    reason = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
+    return ("direct", why_not) if why_not else ("fourier", f"uniform grid, {reason}")
 
 
 def _check_data(problem):
@@ -113,6 +119,12 @@ def _check_solvable(problem):
             f"unbounded: no dirichlet part and int f + int g = {total:.3e} > 0 lifts u off the obstacle without end; "
             "add a dirichlet part or a load with negative mean"
         )
+
+
+def _touching(problem, u, active):
+    """Where u binds: also where it is above the obstacle by round-off alone, so that no route decides biactive dofs."""
+    size = max(float(np.max(np.abs(values), initial=0.0)) for values in (u, problem.lower))
+    return active | (u[problem.contact] - problem.lower <= _TOUCHING * size)
 
 
 def _exponent(problem):

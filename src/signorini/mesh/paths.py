@@ -1,0 +1,101 @@
+"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering decides."""
+
+from collections import defaultdict
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A connected piece of the boundary, walked facet by facet.
+
+    Parameters
+    ----------
+    vertices : ndarray of int, shape (k + 1,)
+        The first and the last are the same where the path closes on itself.
+    facets : ndarray of int, shape (k,)
+        Facet i joins vertices i and i + 1.
+    points : ndarray, shape (2, k + 1)
+        Coordinates of the vertices.
+    """
+
+    vertices: np.ndarray
+    facets: np.ndarray
+    points: np.ndarray
+
+    @property
+    def closed(self):
+        """Whether the path ends where it starts."""
+        return self.vertices[0] == self.vertices[-1]
+
+    @property
+    def lengths(self):
+        """Lengths of the facets, shape (k,)."""
+        return np.hypot(*np.diff(self.points))
+
+    @property
+    def marks(self):
+        """Vertices and midpoints of the facets by turns, shape (2, 2 k + 1)."""
+        return _with_means(self.points)
+
+    @property
+    def arc_length(self):
+        """Arc length of the marks from the start, shape (2 k + 1,), unit of length."""
+        return _with_means(np.append(0.0, np.cumsum(self.lengths)))
+
+
+def _with_means(values):
+    """Insert the mean of each two neighbours between them, along the last axis."""
+    result = np.empty((*values.shape[:-1], 2 * values.shape[-1] - 1))
+    result[..., ::2] = values
+    result[..., 1::2] = 0.5 * (values[..., :-1] + values[..., 1:])
+    return result
+
+
+def boundary_paths(mesh, label):
+    """Cut the part `label` of the boundary into paths, cut where three or more of its facets meet.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    label : {"dirichlet", "contact", "neumann"}
+
+    Returns
+    -------
+    list of Path
+        In the order and direction that the module's docstring says, whatever the numbering of the mesh.
+    """
+    facets, p = mesh.boundary_facets(label), mesh.p
+    around = defaultdict(list)
+    for facet, a, b in zip(facets.tolist(), *mesh.facets[:, facets].tolist(), strict=True):
+        around[a].append((facet, b))
+        around[b].append((facet, a))
+    at = {vertex: (*p[:, vertex].tolist(),) for vertex in around}
+    joints = {vertex for vertex, steps in around.items() if len(steps) != 2}
+    used, paths = set(), []
+    for vertex in sorted(around, key=lambda v: (v not in joints, at[v])):
+        for step in sorted(around[vertex], key=lambda step: at[step[1]]):
+            if step[0] not in used:
+                paths.append(_walk(p, around, joints, vertex, step, used))
+    return sorted(paths, key=lambda path: at[path.vertices[0]])
+
+
+def _walk(p, around, joints, start, step, used):
+    """Follow facets that are not `used` from `start` to a joint, or round to where no facet is left."""
+    vertices, facets = [start], []
+    while step:
+        facet, vertex = step
+        used.add(facet)
+        facets.append(facet)
+        vertices.append(vertex)
+        step = None if vertex in joints else next((s for s in around[vertex] if s[0] not in used), None)
+    path = Path(np.array(vertices), np.array(facets), p[:, vertices])
+    if path.closed and _signed_area(path.points) < 0.0:
+        path = Path(path.vertices[::-1], path.facets[::-1], path.points[:, ::-1])
+    return path
+
+
+def _signed_area(points):
+    x, y = points - points[:, :1]
+    return 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])

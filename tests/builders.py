@@ -40,11 +40,10 @@ def labelled(mesh, labels=PAPER):
     """The unit square's scikit-fem mesh as a `Triangulation`; a facet belongs to a side if both ends lie on it."""
     x, y = mesh.p[:, mesh.facets]
     on_side = {"bottom": y == 0, "right": x == 1, "top": y == 1, "left": x == 0}
-    names = {
-        label: np.flatnonzero(np.any([on_side[side].all(axis=0) for side, l in zip(SIDES, labels) if l == label], axis=0))
-        for label in set(labels)
-    }
-    return Triangulation(mesh.with_boundaries(names))
+    names = {label: [] for label in labels}
+    for side, label in zip(SIDES, labels, strict=True):
+        names[label].append(np.flatnonzero(on_side[side].all(axis=0)))
+    return Triangulation(mesh.with_boundaries({label: np.concatenate(found) for label, found in names.items()}))
 
 
 def delaunay(seed, inner=25, side=5, labels=PAPER):

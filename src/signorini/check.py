@@ -56,7 +56,7 @@ def verdict(rows, source):
     SignoriniError
         If a row is not ok: naming each such cell and its distance.
     """
-    wrong = [row for row in rows if row["ok"] != "1"]
+    wrong = [row for row in rows if not int(row["ok"])]
     if wrong:
         cells = "; ".join(
             f"{row['cell']}: published {row['published']}, computed {row['computed']}, {row['units']} units off"

@@ -11,6 +11,8 @@ from signorini.load import assemble_load
 from signorini.mesh import Domain, Grid
 from signorini.stencil import apply_stiffness
 
+_ROUNDING = 1e-10
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
@@ -109,16 +111,32 @@ def discretize_on(mesh, element, statement):
     data = statement.data
     fixed = kind.boundary_dofs(mesh, "dirichlet")
     contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
+    lower, fixed_values = data.obstacle(*kind.nodes(mesh, contact)), data.dirichlet(*kind.nodes(mesh, fixed))
+    _check_corners(mesh, data, max(np.max(np.abs(values), initial=0.0) for values in (lower, fixed_values)))
     return Problem(
         element=element,
         mesh=mesh,
         b=assemble_load(mesh, kind, data.f, data.g, statement.load_quadrature),
         contact=contact,
-        lower=data.obstacle(*kind.nodes(mesh, contact)),
+        lower=lower,
         fixed=fixed,
-        fixed_values=data.dirichlet(*kind.nodes(mesh, fixed)),
+        fixed_values=fixed_values,
         coefficient=_coefficient(mesh, data.coefficient),
     )
+
+
+def _check_corners(mesh, data, size):
+    """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K is empty."""
+    shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
+    x, y = mesh.p[:, shared]
+    obstacle, dirichlet = (formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet))
+    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
+    if above.any():
+        k = int(np.flatnonzero(above)[0])
+        raise SceneError(
+            f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet parts meet: obstacle "
+            f"{obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; lower the obstacle or raise dirichlet there"
+        )
 
 
 def _coefficient(mesh, formula):

@@ -3,6 +3,7 @@
 import copy
 import difflib
 import json
+from functools import cache
 
 from signorini.exceptions import SceneError
 
@@ -28,16 +29,23 @@ def validated(document, schema, source):
     SceneError
         One line that names the file, the field, the value and the remedy.
     """
-    from jsonschema import Draft202012Validator
-
     if not isinstance(document, dict):
         raise SceneError(f"{source}: expected 'key: value' lines at the top, found {_shown(document)}")
-    error = min(Draft202012Validator(schema).iter_errors(document), key=_order, default=None)
+    error = min(_validator()(schema).iter_errors(document), key=_order, default=None)
     if error is not None:
         raise SceneError(f"{source}: {_explain(error)}")
     document = copy.deepcopy(document)
     _fill(document, schema)
     return document
+
+
+@cache
+def _validator():
+    """JSON schema's rules, but 2.0 is no integer: it would name the file n2.0.npz."""
+    from jsonschema import Draft202012Validator, validators
+
+    whole = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
+    return validators.extend(Draft202012Validator, type_checker=whole)
 
 
 def _order(error):
@@ -57,7 +65,8 @@ def _explain(error):
     if error.validator == "additionalProperties":
         known = list(error.schema["properties"])
         key = next(key for key in error.instance if key not in known)
-        return f"{field + '.' if field else ''}{key}: unknown key; {nearest(key, known)}"
+        shown = key if key.isprintable() and len(key) <= 60 else _shown(key)
+        return f"{field + '.' if field else ''}{shown}: unknown key; {nearest(key, known)}"
     if error.validator == "required":
         missing = next(key for key in error.validator_value if key not in error.instance)
         return f"{field + '.' if field else ''}{missing}: missing; add it ({_describe(error.schema, missing)})"
@@ -67,8 +76,9 @@ def _explain(error):
         "type": lambda: f"expected {_TYPES.get(error.validator_value, error.validator_value)}",
         "minimum": lambda: f"must be at least {error.validator_value}",
         "maximum": lambda: f"must be at most {error.validator_value}",
-        "minItems": lambda: f"needs at least {error.validator_value} entries",
-        "maxItems": lambda: f"takes at most {error.validator_value} entries",
+        "minItems": lambda: f"needs at least {_entries(error.validator_value)}",
+        "maxItems": lambda: f"takes at most {_entries(error.validator_value)}",
+        "pattern": lambda: f"use {error.schema.get('description', error.validator_value)}",
         "uniqueItems": lambda: "list each entry once",
     }.get(error.validator, lambda: error.message)()
     return f"{field}: {_shown(error.instance)} is not valid; {remedy}"
@@ -83,6 +93,10 @@ _TYPES = {
 }
 
 
+def _entries(count):
+    return f"{count} entry" if count == 1 else f"{count} entries"
+
+
 def _alternatives(schema):
     return " or ".join(
         ", ".join(map(str, part["enum"])) if "enum" in part else _TYPES.get(part.get("type"), "another value")
@@ -95,7 +109,7 @@ def _describe(schema, key):
 
 
 def _shown(value):
-    text = json.dumps(value, default=str)
+    text = json.dumps(value, default=str, ensure_ascii=False)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

@@ -15,10 +15,10 @@ def apply_stiffness(grid, element, u):
     return _STENCILS[element](grid, hy / hx, hx / hy, u)
 
 
-def largest_diagonal(grid, element):
-    """An upper bound of the diagonal of A, dimensionless."""
+def diagonal(grid, element):
+    """Diagonal of A, shape (ndof,), dimensionless."""
     hx, hy = grid.spacing
-    return (2.0 if element == "P1" else 4.0) * (hx / hy + hy / hx)
+    return _DIAGONALS[element](grid, hy / hx, hx / hy)
 
 
 def _apply_p1(grid, kx, ky, u):
@@ -50,4 +50,21 @@ def _apply_cr(grid, kx, ky, u):
     return grid.join_edges(h, v, d)
 
 
+def _diagonal_p1(grid, kx, ky):
+    return 2.0 * (kx + ky) * np.outer(_halved_ends(grid.ny + 1), _halved_ends(grid.nx + 1)).ravel()
+
+
+def _diagonal_cr(grid, kx, ky):
+    h = np.repeat(4.0 * ky * _halved_ends(grid.ny + 1)[:, None], grid.nx, axis=1)
+    v = np.repeat(4.0 * kx * _halved_ends(grid.nx + 1)[None, :], grid.ny, axis=0)
+    return grid.join_edges(h, v, np.full((grid.ny, grid.nx), 4.0 * (kx + ky)))
+
+
+def _halved_ends(size):
+    weights = np.ones(size)
+    weights[[0, -1]] = 0.5
+    return weights
+
+
 _STENCILS = {"P1": _apply_p1, "CR": _apply_cr}
+_DIAGONALS = {"P1": _diagonal_p1, "CR": _diagonal_cr}

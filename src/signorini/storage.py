@@ -61,14 +61,17 @@ def write_csv(path, rows):
 
 
 def read_csv(path, numbers=()):
-    """Read a list of dicts; the columns named in `numbers` become float, or None where empty."""
+    """Read a non-empty list of dicts; the columns named in `numbers` become float, or None where empty."""
     try:
         with open(path, encoding="utf-8", newline="") as stream:
-            rows = list(csv.DictReader(stream))
+            text = stream.read()
+        rows = list(csv.DictReader(io.StringIO(text)))
+        if not (rows and text.endswith("\n") and all(None not in (*row, *row.values()) for row in rows)):
+            raise ValueError("a line is missing, or cut off")
         for row in rows:
             row.update({key: float(row[key]) if row[key] else None for key in numbers})
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise StorageError(f"{path}: not a readable table ({error}); delete it and rerun") from error
+        raise StorageError(f"{path}: not a readable table ({error}); mend it, or delete it and rerun") from error
     return rows
 
 
@@ -76,8 +79,10 @@ def write_npz(path, kind, **arrays):
     """Write arrays as an uncompressed .npz whose entry ``kind`` says what they are; the bytes depend on them alone."""
     import numpy as np
 
+    entries = {"kind": kind, **arrays}
     with replacing(path, "wb") as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-        for name, value in {"kind": kind, **arrays}.items():
+        archive.comment = " ".join(entries).encode()  # checksums do not show an entry that is gone altogether
+        for name, value in entries.items():
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
             with archive.open(entry, "w", force_zip64=True) as member:
                 np.lib.format.write_array(member, np.asanyarray(value), allow_pickle=False)
@@ -93,10 +98,17 @@ def read_npz(path, kind):
     """
     import numpy as np
 
+    arrays = {}
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, NotImplementedError) as error:
+        with zipfile.ZipFile(path) as archive:
+            for name in archive.namelist():
+                with archive.open(name) as member:
+                    arrays[name.removesuffix(".npy")] = np.lib.format.read_array(member, allow_pickle=False)
+                    if member.read():  # the checksum is verified at the member's end, and not before
+                        raise ValueError(f"{name} is longer than its header says")
+            if archive.comment != " ".join(arrays).encode():
+                raise ValueError("entries are missing")
+    except (OSError, ValueError, EOFError, RuntimeError, MemoryError, zipfile.BadZipFile) as error:
         raise StorageError(f"{path}: truncated or altered ({error}); delete it and rerun") from error
     if str(arrays.pop("kind", "")) != kind:
         raise StorageError(f"{path}: does not hold a {kind}; delete it and rerun")

@@ -1,5 +1,6 @@
 """YAML as people read it: no duplicate keys, no tags, no aliases, and 1.2's plain true, false and numbers."""
 
+import math
 import re
 
 import yaml
@@ -19,6 +20,10 @@ class _Loader(yaml.SafeLoader):
                 None,
                 "aliases (*name) are not supported; repeat the value",
                 self.peek_event().start_mark,
+            )
+        if getattr(self.peek_event(), "tag", None) is not None:
+            raise yaml.constructor.ConstructorError(
+                None, None, f"tags ({self.peek_event().tag}) are not supported; drop it", self.peek_event().start_mark
             )
         return super().compose_node(parent, index)
 
@@ -48,12 +53,24 @@ for _tag, _pattern, _first in (
 def _float(loader, node):
     text = loader.construct_scalar(node)
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
         return text
+    if not math.isfinite(value):
+        shown = text if len(text) <= 20 else text[:17] + "..."
+        raise yaml.constructor.ConstructorError(
+            None, None, f"number {shown} is out of range; a double holds up to 1.8e308", node.start_mark
+        )
+    return value
+
+
+def _int(loader, node):
+    _float(loader, node)
+    return int(loader.construct_scalar(node))
 
 
 _Loader.add_constructor("tag:yaml.org,2002:float", _float)
+_Loader.add_constructor("tag:yaml.org,2002:int", _int)
 
 
 def load_yaml(path):
@@ -87,6 +104,8 @@ def load_yaml(path):
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        raise SceneError(f"{path}: {place}{error.problem or 'malformed YAML'}; mend this line") from error
+        problem = error.problem or "malformed YAML"
+        remedy = "" if "; " in problem else "; mend this line"
+        raise SceneError(f"{path}: {place}{problem}{remedy}") from error
     except (yaml.YAMLError, RecursionError) as error:
         raise SceneError(f"{path}: malformed YAML ({str(error).splitlines()[0]})") from error

@@ -1,17 +1,18 @@
 # Helpers of the rules: the configuration, the scenes, and what each job depends on.
 import hashlib
 import json
+import os
 import re
 import shutil
 import sys
 from functools import cache
 from pathlib import Path
 
-from snakemake.exceptions import WorkflowError
-
 SOURCE = Path("src")
 SCRIPTS = Path("workflow/scripts")
 sys.path.insert(0, str(SOURCE.resolve()))
+# The python3 of a job is the one that runs Snakemake.
+os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]))
 
 from signorini.exceptions import SignoriniError
 from signorini.scene import check_name, load_scene
@@ -19,25 +20,40 @@ from signorini.schema import nearest, validated
 from signorini.strict_yaml import load_yaml
 
 NAME = "[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
-PYTHON = sys.executable
+PUBLISHED = "config/published/table_5_1.csv"
+LATEX = shutil.which("latexmk") and shutil.which("pdflatex")
+FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
+PAPER_NAMES = {"table": "table_5_1.tex"} | dict(zip(["surface", "l2", "h1"], FIGURES))
 
 
 def reported(function):
-    """Let a user's mistake stop Snakemake with its one line instead of a traceback."""
+    """Let a user's mistake end Snakemake with its one line; an exception would add a traceback."""
 
     def called(*arguments):
         try:
             return function(*arguments)
         except SignoriniError as error:
-            raise WorkflowError(str(error)) from None
+            sys.exit(f"error: {error}")
 
     return called
 
 
 @reported
 def check_config():
-    schema = load_yaml("workflow/schemas/config.schema.yaml")
-    return validated(dict(config), schema, "config/config.yaml")
+    """config.yaml, read strictly, under what the command line says."""
+    source = "config/config.yaml"
+    document = load_yaml(source)
+    if isinstance(document, dict):
+        document |= config
+    return validated(document, load_yaml("workflow/schemas/config.schema.yaml"), source)
+
+
+@reported
+def check_results():
+    """Refuse to start what could not be stored."""
+    for folder in map(Path, ["results", "results/meshes", *(f"results/{name}" for name in CONFIG["scenes"])]):
+        if os.path.lexists(folder) and not (folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)):
+            raise SignoriniError(f"{folder}: not a folder that can be written; make it one, or move it away")
 
 
 @cache
@@ -87,6 +103,10 @@ def module_files(name):
     return [file for file in files if file.is_file()]
 
 
+def as_json(value):
+    return json.dumps(value, sort_keys=True)
+
+
 def statement(wildcards):
     """What a discretisation depends on, as JSON: it reruns when this changes and only then."""
     return statement_of(wildcards.scene)
@@ -96,8 +116,11 @@ def statement_of(name):
     return as_json(scene(name).section("domain", "boundary", "data", "load_quadrature"))
 
 
-def as_json(value):
-    return json.dumps(value, sort_keys=True)
+def mesh_statement(wildcards):
+    """Of the scenes asked for first, so that a broken file elsewhere in config/scenes does no harm."""
+    names = dict.fromkeys([*CONFIG["scenes"], *known_scenes()])
+    shared = next(name for name in names if mesh_key(name) == wildcards.mesh)
+    return as_json(scene(shared).section("domain", "boundary"))
 
 
 @cache
@@ -110,29 +133,44 @@ def mesh_file(wildcards):
     return f"results/meshes/{mesh_key(wildcards.scene)}.npz"
 
 
+def solutions(name):
+    asked = scene(name)
+    return [f"results/{name}/solutions/{element}/n{n}.npz" for element in asked.elements for n in asked.levels]
+
+
 def solution_files(wildcards):
-    asked = scene(wildcards.scene)
-    return [
-        f"results/{wildcards.scene}/solutions/{element}/n{n}.npz" for element in asked.elements for n in asked.levels
-    ]
+    return solutions(wildcards.scene)
+
+
+def output_names(name):
+    """File names of a scene's table and figures; the scene `paper` has the paper's own."""
+    generic = {norm: f"figures/{norm}" for norm in ("l2", "h1_semi", "h1")}
+    names = {"table": "table.tex", "surface": "figures/surface"} | generic
+    return names | PAPER_NAMES if name == "paper" else names
 
 
 def scene_output(name):
     """What one scene asks for; what it does not ask for never enters the job graph."""
     asked = scene(name)
     outputs, names = asked.document["outputs"], output_names(name)
-    files = [f"solutions/{element}/n{n}.npz" for element in asked.elements for n in asked.levels]
-    files += [file for file in ("errors.csv", "rates.csv") if file.split(".")[0] in outputs]
+    files = [f"{output}.csv" for output in ("errors", "rates") if output in outputs]
     files += [names["table"]] if "table" in outputs else []
     if "figures" in outputs and asked.truth["kind"] == "reference":
         figures = [names["surface"], *(names[norm] for norm in asked.document["norms"])]
         files += [f"{figure}.{ending}" for figure in figures for ending in ("pdf", "png")]
-    return [f"results/{name}/{file}" for file in files]
+    return solutions(name) + [f"results/{name}/{file}" for file in files]
+
+
+def paper_output():
+    """The check and the PDF, where the scene `paper` is asked for with all that they show."""
+    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(scene("paper").document["outputs"]):
+        return []
+    return [f"results/paper/{file}" for file in ("check.csv", "check.txt", "paper.pdf")[: 3 if LATEX else 2]]
 
 
 def final_output():
-    files = [file for name in CONFIG["scenes"] for file in scene_output(name)]
-    return files + (paper_output() if "paper" in CONFIG["scenes"] else [])
+    return [file for name in CONFIG["scenes"] for file in scene_output(name)] + paper_output()
 
 
 CONFIG = check_config()
+check_results()

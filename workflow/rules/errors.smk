@@ -9,16 +9,16 @@ rule errors:
         solutions=solution_files,
     output:
         "results/{scene}/errors.csv",
-    params:
-        norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
-        quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
     log:
         "results/{scene}/logs/errors.log",
     benchmark:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
+    params:
+        norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
+        quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
     shell:
-        "{PYTHON:q} {SCRIPTS}/errors.py --mesh {input.mesh:q} --reference {input.reference:q}"
+        "python3 workflow/scripts/errors.py --mesh {input.mesh:q} --reference {input.reference:q}"
         " --norms {params.norms} --quadrature {params.quadrature}"
         " --output {output:q} {input.solutions:q} 2>&1 | tee {log:q}"
 
@@ -33,4 +33,4 @@ rule rates:
         "results/{scene}/logs/rates.log",
     priority: 6
     shell:
-        "{PYTHON:q} {SCRIPTS}/rates.py --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 workflow/scripts/rates.py --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"

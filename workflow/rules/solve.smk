@@ -7,15 +7,15 @@ rule solve:
         mesh=mesh_file,
     output:
         "results/{scene}/solutions/{element}/n{n}.npz",
-    params:
-        statement=statement,
-        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
     log:
         "results/{scene}/logs/solve/{element}_n{n}.log",
     benchmark:
         "results/{scene}/benchmarks/solve/{element}_n{n}.tsv"
+    params:
+        statement=statement,
+        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
     shell:
-        "{PYTHON:q} {SCRIPTS}/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
+        "python3 workflow/scripts/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
         " --element {wildcards.element} --n {wildcards.n} --method {params.method}"
         " --output {output:q} 2>&1 | tee {log:q}"
 
@@ -26,17 +26,17 @@ rule reference:
         mesh=mesh_file,
     output:
         "results/{scene}/reference.npz",
-    params:
-        statement=statement,
-        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
-        element=lambda wildcards: scene(wildcards.scene).truth["element"],
-        n=lambda wildcards: scene(wildcards.scene).truth["n"],
     log:
         "results/{scene}/logs/reference.log",
     benchmark:
         "results/{scene}/benchmarks/reference.tsv"
     priority: 10
+    params:
+        statement=statement,
+        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
+        element=lambda wildcards: scene(wildcards.scene).truth["element"],
+        n=lambda wildcards: scene(wildcards.scene).truth["n"],
     shell:
-        "{PYTHON:q} {SCRIPTS}/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
+        "python3 workflow/scripts/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
         " --element {params.element} --n {params.n} --method {params.method}"
         " --output {output:q} 2>&1 | tee {log:q}"

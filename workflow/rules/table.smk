@@ -9,13 +9,13 @@ rule table:
     output:
         tex="results/{scene}/table.tex",
         markdown="results/{scene}/table.md",
+    log:
+        "results/{scene}/logs/table.log",
     params:
         norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
         elements=lambda wildcards: ",".join(scene(wildcards.scene).elements),
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],
-    log:
-        "results/{scene}/logs/table.log",
     shell:
-        "{PYTHON:q} {SCRIPTS}/table.py --errors {input.errors:q} --rates {input.rates:q}"
+        "python3 workflow/scripts/table.py --errors {input.errors:q} --rates {input.rates:q}"
         " --norms {params.norms} --elements {params.elements} --slope {params.slope}"
         " --tex {output.tex:q} --markdown {output.markdown:q} 2>&1 | tee {log:q}"

@@ -9,8 +9,10 @@ from signorini.exceptions import MeshError
 
 LABELS = ("dirichlet", "contact", "neumann")
 
-# scikit-fem's red refinement sorts the vertices of each child by number; `Grid.children` promises another order.
-_REFINED_ORDER = ((0, 1, 2), (1, 0, 2), (1, 2, 0), (2, 1, 0))
+# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.children` promises; that of
+# the middle child depends on whether the mesh keeps the vertices of its triangles sorted by number.
+_REFINED_ORDER = ((0, 1, 2), (1, 0, 2), (1, 2, 0))
+_MIDDLE_ORDER = {True: (2, 1, 0), False: (1, 2, 0)}
 
 
 @dataclass(frozen=True)
@@ -133,16 +135,20 @@ class Triangulation:
         """The mesh this one was refined from, or None."""
         return self.parent
 
+    @property
+    def _child_orders(self):
+        return (*_REFINED_ORDER, _MIDDLE_ORDER[self.skfem.sort_t])
+
     def children(self, values):
         """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
         family = values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2)
         if values.shape[0] != 3:
             return family
-        return np.stack([child[list(order)] for child, order in zip(family, _REFINED_ORDER, strict=True)])
+        return np.stack([child[list(order)] for child, order in zip(family, self._child_orders, strict=True)])
 
     def from_children(self, family):
         """Undo `children`."""
         if family.shape[1] == 3:
-            inverse = [np.argsort(order) for order in _REFINED_ORDER]
+            inverse = [np.argsort(order) for order in self._child_orders]
             family = np.stack([child[order] for child, order in zip(family, inverse, strict=True)])
         return family.transpose(1, 0, 2).reshape(family.shape[1], -1)

@@ -2,8 +2,8 @@
 
 The dofs are ordered by nested dissection with the contact dofs last, so that the trailing block of the factors
 is the Schur complement S on them: neither a second factorisation nor a solve per contact dof is needed.
-A multiple of the identity added on the contact dofs, and taken off again, keeps the factorisation regular where
-only the inequality holds the body (no Dirichlet part).
+About its own diagonal entry, added on each contact dof and taken off again, keeps the factorisation regular where only
+the inequality holds the body (no Dirichlet part).
 """
 
 import numpy as np
@@ -19,8 +19,8 @@ _SINGULAR = 1e-13  # a pivot this small against its diagonal entry is round-off
 def solve_direct(problem, guess=None):
     """Solve any problem; arguments, results and errors as in `solvers.fourier.solve_fourier`.
 
-    The accuracy returned is the error with which the factorised matrix reproduces the constant 1: rounding of the
-    entries of A on stretched or obtuse cells, which no residual shows.
+    The accuracy returned is the error that rounding of the entries of A causes on stretched or obtuse cells, which no
+    residual shows.
     """
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
@@ -29,32 +29,30 @@ def solve_direct(problem, guess=None):
     u[problem.contact] = problem.lower
     condensed = Condensed(problem)
     load = problem.b - problem.A @ u
-    if not problem.contact.size:
-        u = _refined(problem, condensed, u + condensed.extend(load, np.zeros(0)))
-        return u, np.zeros(0, dtype=bool), 0, _accuracy(problem, condensed)
-    operator = DenseContact(condensed.S)
-    result = solve_contact(operator, condensed.reduce(load), guess=guess, singular=problem.fixed.size == 0)
-    u += condensed.extend(load, result.w)
-    u = _refined(problem, condensed, u, result.active, operator)
-    u[problem.contact[result.active]] = problem.lower[result.active]
-    return u, result.active, result.iterations, _accuracy(problem, condensed, operator)
+    active, iterations, operator = np.zeros(0, dtype=bool), 0, None
+    if problem.contact.size:
+        operator = DenseContact(condensed.S)
+        result = solve_contact(operator, condensed.reduce(load), guess=guess, singular=problem.fixed.size == 0)
+        active, iterations = result.active, result.iterations
+    for _ in ("solve", "refine"):
+        u += _displacement(problem, condensed, operator, active, problem.b - problem.A @ u)
+    u[problem.contact] = np.where(active, problem.lower, np.maximum(u[problem.contact], problem.lower))
+    return u, active, iterations, _accuracy(problem, condensed, operator, active)
 
 
-def _accuracy(problem, condensed, operator=None):
-    defect = problem.A @ np.ones(problem.b.size)
+def _displacement(problem, condensed, operator, active, load):
+    """What `load` does with the contact set held."""
     w = np.zeros(problem.contact.size)
-    if operator is not None and problem.fixed.size:
-        w = operator.solve_free(np.ones(w.size, dtype=bool), condensed.reduce(defect))
-    return float(np.max(np.abs(condensed.extend(defect, w))))
+    if not active.all():
+        w[~active] = operator.solve_free(~active, condensed.reduce(load)[~active])
+    return condensed.extend(load, w)
 
 
-def _refined(problem, condensed, u, active=None, operator=None):
-    """One step of iterative refinement with the contact set held."""
-    residual = problem.b - problem.A @ u
-    w = np.zeros(problem.contact.size)
-    if active is not None and not active.all():
-        w[~active] = operator.solve_free(~active, condensed.reduce(residual)[~active])
-    return u + condensed.extend(residual, w)
+def _accuracy(problem, condensed, operator, active):
+    """Relative change of u when the terms of A u are rounded by random signs: eps times Skeel's condition number."""
+    signs = np.random.default_rng(0).choice((-1.0, 1.0), problem.b.size)
+    rounding = np.finfo(float).eps * signs * (abs(problem.A) @ np.ones(problem.b.size))
+    return float(np.max(np.abs(_displacement(problem, condensed, operator, active, rounding))))
 
 
 class Condensed:
@@ -84,9 +82,9 @@ class Condensed:
         order = dissection_order(problem.A[interior][:, interior], nodes)
         self.order = np.concatenate([interior[order], problem.contact])
         A = problem.A[self.order][:, self.order].tocsc()
-        self.shift = 2.0 ** np.ceil(np.log2(A.diagonal().max()))
         shift = np.zeros(A.shape[0])
-        shift[A.shape[0] - self.count :] = self.shift
+        on_contact = slice(A.shape[0] - self.count, None)
+        shift[on_contact] = 2.0 ** np.ceil(np.log2(A.diagonal()[on_contact]))
         try:
             self.factors = splu(
                 (A + diags_array(shift)).tocsc(),
@@ -106,7 +104,7 @@ class Condensed:
                 "join it to a dirichlet or contact part, or choose other cell shapes"
             )
         self.S_shifted = self._trailing_block()
-        self.S = self.S_shifted - self.shift * np.eye(self.count)
+        self.S = self.S_shifted - np.diag(shift[on_contact])
 
     def _trailing_block(self):
         if not self.count:

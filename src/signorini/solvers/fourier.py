@@ -119,11 +119,15 @@ def solve_fourier(problem, guess=None):
 class _Route:
     """Rows of unknowns, row 0 on or next to the contact side, coupled to the rows above and below alone.
 
-    Row j has the diagonal ``mass[j] k_along eigenvalue + stiffness[j]`` and couples with row j - 1 by ``-coupling[j]``.
+    Row j couples with row j - 1 by ``-k_away coupling[j]``; its diagonal is ``mass[j] k_along eigenvalue``, and k_away
+    times its couplings to both neighbours and `held`, a whole number.
     """
 
     def eliminate(self, rows):
         """Eliminate from the far side, in place: rows[j] then holds what back substitution needs.
+
+        A pivot is its coupling to the next row and an excess, which is summed from positive terms alone: nothing
+        cancels, however stretched the cells.
 
         Returns
         -------
@@ -133,14 +137,24 @@ class _Route:
             What is left of the diagonal of row 0: the eigenvalues of S.
         """
         eigenvalues = self.strip.k_along * self.basis.eigenvalues
+        coupling, held = self.strip.k_away * self.coupling, self.strip.k_away * self.held
         factors = np.empty_like(rows)
-        pivot = self.mass[-1] * eigenvalues + self.stiffness[-1]
+        excess = self.mass[-1] * eigenvalues + held[-1]
         for j in range(rows.shape[0] - 1, 0, -1):
-            np.divide(self.coupling[j], pivot, out=factors[j])
+            pivot = coupling[j] + excess
+            np.divide(coupling[j], pivot, out=factors[j])
             rows[j - 1] += factors[j] * rows[j]
             rows[j] /= pivot
-            pivot = self.mass[j - 1] * eigenvalues + (self.stiffness[j - 1] - self.coupling[j] * factors[j])
-        return factors, pivot
+            excess = self.mass[j - 1] * eigenvalues + (held[j - 1] + factors[j] * excess)
+        return factors, excess
+
+
+def _held(diagonal, coupling):
+    """What is left of each row's diagonal without the couplings to its neighbours, in units of k_away."""
+    held = diagonal.copy()
+    held[1:] -= coupling[1:]
+    held[:-1] -= coupling[1:]
+    return held
 
 
 class _Vertices(_Route):
@@ -155,8 +169,8 @@ class _Vertices(_Route):
         self.mass = np.ones(strip.away + 1)
         self.mass[[0, -1]] = 0.5
         self.mass = self.mass[self.rows]
-        self.stiffness = 2.0 * strip.k_away * self.mass
-        self.coupling = np.full(self.mass.size, strip.k_away)
+        self.coupling = np.ones(self.mass.size)
+        self.held = _held(2.0 * self.mass, self.coupling)
 
     def _shape(self):
         return self.grid.ny + 1, self.grid.nx + 1
@@ -186,11 +200,11 @@ class _Edges(_Route):
         below, above = np.ones(strip.away), np.ones(strip.away)
         below[0], above[-1] = 2.0, end[strip.far]
         self.mass = np.ones(strip.away + self.line)
-        self.stiffness = strip.k_away * np.concatenate([[2.0] * self.line, below + above])
-        self.coupling = np.full(self.mass.size, strip.k_away)
+        self.coupling = np.ones(self.mass.size)
         if self.line:
             self.mass[0] = 0.0
-            self.coupling[1] *= 2.0
+            self.coupling[1] = 2.0
+        self.held = _held(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
 
     def _turned(self, u):
         h, v, d = self.grid.split_edges(u)

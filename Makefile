@@ -1,0 +1,53 @@
+# `make` lists the targets. Each prepares a virtual environment in .venv by itself; nothing else is installed.
+
+PYTHON ?= python3
+CORES ?= 2
+
+run := .venv/bin/python -m
+
+.PHONY: help paper test lint readme requirements clean distclean
+.NOTPARALLEL:
+
+help:
+	@echo 'make paper         build every table and figure of the paper, check them, and typeset results/paper/paper.pdf'
+	@echo 'make test          run all tests'
+	@echo 'make lint          check format and style of Python and Snakemake files'
+	@echo 'make readme        build, then bring the table and the figures in README.md up to date'
+	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
+	@echo 'make clean         delete results/'
+	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
+	@echo 'Variables: PYTHON=$(PYTHON) (3.11 or later), CORES=$(CORES)'
+
+paper: .venv/ready
+	$(run) snakemake --cores $(CORES)
+
+test: .venv/ready
+	PATH="$$PWD/.venv/bin:$$PATH" $(run) pytest
+
+lint: .venv/ready
+	$(run) ruff check .
+	$(run) ruff format --check .
+	$(run) snakefmt --check Snakefile workflow
+	.venv/bin/python .ci/lint_workflow.py
+
+readme: paper
+	.venv/bin/python docs/update_readme.py
+
+requirements:
+	"$(PYTHON)" .ci/pin_requirements.py
+
+.venv/ready: requirements.txt
+	@command -v "$(PYTHON)" >/dev/null || { echo 'error: $(PYTHON) not found; install Python 3.11 or later, or name one: make PYTHON=/path/to/python3.11' >&2; exit 1; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: $(PYTHON) is $$("$(PYTHON)" --version 2>&1), too old; Python 3.11 or later is needed: make PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@"$(PYTHON)" -c 'import venv, ensurepip' 2>/dev/null || { echo 'error: $(PYTHON) has no venv; on Debian: apt-get install python3-venv' >&2; exit 1; }
+	@echo 'Installing requirements.txt into .venv, once; this takes about a minute.'
+	@"$(PYTHON)" -m venv --clear .venv
+	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 --requirement requirements.txt
+	@touch .venv/ready
+
+clean:
+	rm -rf results
+
+distclean: clean
+	rm -rf .venv .snakemake .pytest_cache .ruff_cache .hypothesis build src/*.egg-info
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

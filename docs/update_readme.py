@@ -1,0 +1,92 @@
+"""Bring what is generated of README.md and config/README.md up to date, or check that it is.
+
+    python docs/update_readme.py [--check]
+
+A block from `<!-- name -->` to `<!-- end of name -->` is generated; the pictures are copies of built figures.
+"""
+
+import argparse
+import csv
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "src"))
+
+from keys import key_list  # noqa: E402 (the path above must come first)
+
+from signorini.strict_yaml import load_yaml  # noqa: E402
+
+README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
+PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
+FIGURES = ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png")
+CHOICES = {
+    "diagonal": "the other diagonal",
+    "load": "the load integrated exactly",
+    "norm": "the seminorm for the full norm",
+    "quadrature": "the centroid rule for the norms",
+}
+
+
+def results():
+    """Blocks of README.md, from the results of the scene `paper`."""
+    table = (RESULTS / "table_5_1.md").read_text(encoding="utf-8")
+    line = (RESULTS / "check.txt").read_text(encoding="utf-8")
+    return {"table 5.1": table, "check": f"> {line}", "choices": choices()}
+
+
+def choices():
+    """What changing one choice does to the table, as Markdown."""
+    with open(RESULTS / "effects.csv", encoding="utf-8", newline="") as stream:
+        change = {row["choice"]: float(row["change"]) for row in csv.DictReader(stream)}
+    rows = "".join(f"| {text} | {100 * change[name]:.2g} % |\n" for name, text in CHOICES.items())
+    return "| Instead | an entry of the table moves by up to |\n| :--- | ---: |\n" + rows
+
+
+def keys():
+    """Blocks of config/README.md, from the schemas and the scenes."""
+    paths = sorted((ROOT / "config/scenes").glob("*.yaml"), key=lambda path: (path.stem != "paper", path.stem))
+    scenes = {path.stem: load_yaml(path) for path in paths}
+    rows = "".join(f"| `{name}` | {document.get('title', '')} |\n" for name, document in scenes.items())
+    schema, config = load_yaml(ROOT / "workflow/schemas/config.schema.yaml"), load_yaml(ROOT / "config/config.yaml")
+    return {
+        "scenes": "| scene | what it is |\n| :--- | :--- |\n" + rows,
+        "keys of config.yaml": key_list(schema, [config]),
+        "keys of a scene": key_list(load_yaml(ROOT / "src/signorini/scene.schema.yaml"), scenes.values()),
+    }
+
+
+def filled(path, texts):
+    """A file with every block replaced, as bytes; ValueError unless each is there exactly once."""
+    text = path.read_text(encoding="utf-8")
+    for name, block in texts.items():
+        pattern = rf"(<!-- {re.escape(name)} -->\n).*?(<!-- end of {re.escape(name)} -->\n)"
+        text, count = re.subn(pattern, lambda found, block=block: found[1] + block + found[2], text, flags=re.S)
+        if count != 1:
+            raise ValueError(f"{path.name}: {count} blocks '<!-- {name} -->', expected 1")
+    return text.encode()
+
+
+def main():
+    """Update the files, or name those that would change and fail."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="change nothing; fail if anything would change")
+    check = parser.parse_args().check
+    try:
+        wanted = {README: filled(README, results()), CONFIG_README: filled(CONFIG_README, keys())}
+        wanted |= {PICTURES / name: (RESULTS / name).read_bytes() for name in FIGURES}
+    except FileNotFoundError as error:
+        sys.exit(f"error: {error.filename} is missing; run `make paper` first")
+    stale = [path for path, content in wanted.items() if not path.is_file() or path.read_bytes() != content]
+    names = ", ".join(str(path.relative_to(ROOT)) for path in stale)
+    if check and stale:
+        sys.exit(f"error: not as the build and the schemas make them: {names}; run `make readme`")
+    PICTURES.mkdir(exist_ok=True)
+    for path in stale:
+        path.write_bytes(wanted[path])
+    print(f"updated: {names}" if stale else "README.md, config/README.md and docs/pictures: up to date")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,147 @@
+"""Meshes from files: whatever meshio reads, triangles in a plane, with the boundary named by the file's groups."""
+
+import json
+import re
+import stat
+from pathlib import Path
+
+import numpy as np
+
+from signorini.exceptions import MeshError
+from signorini.mesh.check import check_triangulation
+from signorini.mesh.child import run_apart
+from signorini.mesh.labels import NamedMesh, labelled
+
+MAX_BYTES = 2**28
+_PLANE = 1e-12
+_PLAIN = re.compile(r"[\w.+@ /-]{1,500}")
+
+
+def read_mesh(path, groups):
+    """Read a mesh file and label its boundary.
+
+    Parameters
+    ----------
+    path : str or Path
+        See `import_mesh`.
+    groups : dict
+        Name or number of a group of boundary lines -> ``"dirichlet"``, ``"contact"`` or ``"neumann"``; see
+        `labels.label_boundary`.
+
+    Returns
+    -------
+    Triangulation
+
+    Raises
+    ------
+    MeshError
+        As `import_mesh` and `labels.label_boundary`.
+    """
+    return labelled(import_mesh(path), groups)
+
+
+def import_mesh(path, limit=MAX_BYTES):
+    """Read a mesh file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file that meshio reads (.msh, .vtu, .xdmf, ...) with triangles of three vertices in a plane z = const; other
+        cells than points, lines and triangles are refused.
+    limit : int
+        Largest file that is read, bytes.
+
+    Returns
+    -------
+    NamedMesh
+        Its parts are the file's groups of lines, its regions the groups of triangles: cell sets (physical
+        groups) by name; integer cell data by value, as ``"3"``, or ``"name=3"`` where there are several.
+
+    Raises
+    ------
+    MeshError
+        If the file is missing, too large, damaged, hostile, or not a triangulation.
+
+    Notes
+    -----
+    The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times the file's size, for 30 s
+    and 2 s per MB.
+    """
+    path = Path(path)
+    size = _regular_size(path)
+    if size > limit:
+        raise MeshError(f"{path.name}: {size} bytes, more than {limit}; coarsen the mesh, levels refine it")
+    raw = run_apart(
+        "signorini.mesh.parse:parse",
+        str(path.absolute()),
+        memory=2**31 + 50 * size,
+        seconds=30 + 2e-6 * size,
+        what=path.name,
+    )
+    points = _plane(path, raw["points"])
+    p, t, vertex_map = check_triangulation(points, raw["triangle"].T, path.name)
+    lines = raw["line"].T
+    if lines.size and (lines.min() < 0 or lines.max() >= vertex_map.size):
+        raise MeshError(f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}")
+    names = json.loads(str(raw["names"]))
+    parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
+    regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
+    return NamedMesh(p, t, parts, regions, path.name)
+
+
+def resolve_mesh_path(path, root, base=None):
+    """The file a scene means by a path.
+
+    Parameters
+    ----------
+    path : str
+        As written in the scene.
+    root : str or Path
+        The tree that the file must lie in, after all links are followed.
+    base : str or Path, optional
+        Folder of the scene's file, that `path` is relative to; `root` by default.
+
+    Returns
+    -------
+    Path
+        Absolute, without links.
+
+    Raises
+    ------
+    MeshError
+        If the path is empty, has unusual characters, leads out of the tree, or is not an existing regular file.
+    """
+    if not isinstance(path, str) or not _PLAIN.fullmatch(path) or path != path.strip():
+        raise MeshError(f"mesh path {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /")
+    root = Path(root).resolve()
+    try:
+        resolved = (Path(base or root) / path).resolve()
+    except (OSError, RuntimeError) as error:
+        raise MeshError(f"mesh path {path!r} cannot be followed ({type(error).__name__}); remove the loop") from None
+    if not resolved.is_relative_to(root):
+        raise MeshError(f"mesh path {path!r} leads out of the tree of the scene; copy the file into it")
+    _regular_size(resolved)
+    return resolved
+
+
+def _regular_size(path):
+    """Bytes of a regular file; devices, pipes and folders are refused unread."""
+    try:
+        status = path.stat()
+    except (OSError, ValueError) as error:
+        raise MeshError(f"{path.name}: cannot read the mesh file ({error}); name an existing file") from None
+    if not stat.S_ISREG(status.st_mode):
+        raise MeshError(f"{path.name}: not a regular file; name a mesh file")
+    return status.st_size
+
+
+def _plane(path, points):
+    """Coordinates x and y, shape (2, nv), of points in a plane z = const."""
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise MeshError(f"{path.name}: points have shape {points.shape}; give two or three coordinates each")
+    p, z = points.T[:2], points.T[2:]
+    bent = (z != z[:, :1]).ravel()
+    if bent.any() and not np.ptp(z) <= _PLANE * np.ptp(p):
+        k = int(np.argmax(bent))
+        raise MeshError(f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; the mesh must be plane")
+    return p

@@ -1,0 +1,125 @@
+import contextlib
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from signorini.exceptions import StorageError
+from signorini.storage import read_csv, read_npz, write_csv, write_npz, write_text
+
+ARRAYS = {"u": np.linspace(0, 1, 9), "active": np.array([True, False]), "n": np.array(4), "element": np.array("P1")}
+ROWS = [{"element": "P1", "n": 2, "l2": 0.1 + 0.2, "h1": None}, {"element": "CR", "n": 4, "l2": 5e-324, "h1": 1.0}]
+
+
+@pytest.fixture
+def stored(tmp_path):
+    path = tmp_path / "a.npz"
+    write_npz(path, "solution", **ARRAYS)
+    return path
+
+
+def rewrite(path, content):
+    """As a new file: a file system may wait for the disk when one is overwritten."""
+    path.unlink()
+    path.write_bytes(content)
+
+
+def same(found):
+    return found.keys() == ARRAYS.keys() and all(np.array_equal(found[name], ARRAYS[name]) for name in ARRAYS)
+
+
+def test_arrays_come_back(stored):
+    assert same(read_npz(stored, "solution"))
+    with np.load(stored) as archive:
+        assert np.array_equal(archive["u"], ARRAYS["u"])
+
+
+def test_bytes_depend_on_the_arrays_alone(stored, tmp_path):
+    write_npz(tmp_path / "b.npz", "solution", **ARRAYS)
+    assert stored.read_bytes() == (tmp_path / "b.npz").read_bytes()
+
+
+@pytest.mark.parametrize("bit", range(8))
+def test_one_flipped_bit_is_noticed_or_harmless(stored, bit):
+    """Harmless: in the archive's time stamps and the like."""
+    content = stored.read_bytes()
+    for place in range(bit, len(content), 11):
+        rewrite(stored, content[:place] + bytes([content[place] ^ 1 << bit]) + content[place + 1 :])
+        with contextlib.suppress(StorageError):
+            assert same(read_npz(stored, "solution")), place
+
+
+def test_truncated_arrays_are_refused(stored):
+    content = stored.read_bytes()
+    for length in range(0, len(content), 11):
+        rewrite(stored, content[:length])
+        with pytest.raises(StorageError, match="delete it and rerun"):
+            read_npz(stored, "solution")
+
+
+def test_an_array_that_hides_its_end_is_refused(tmp_path):
+    """Its checksum is that of all its bytes, and would not be looked at if the rest were left unread."""
+    path = tmp_path / "a.npz"
+    write_npz(path, "solution", u=np.zeros(262144))
+    content = path.read_bytes()
+    assert content.count(b"(262144,)") == 1
+    path.write_bytes(content.replace(b"(262144,)", b"(222144,)"))
+    with pytest.raises(StorageError, match="truncated or altered"):
+        read_npz(path, "solution")
+
+
+@pytest.mark.parametrize("content", [b"", b"text", b"\x80\x04K\x01."], ids=["empty", "text", "pickle"])
+def test_what_is_no_archive_is_refused(tmp_path, content):
+    (tmp_path / "a.npz").write_bytes(content)
+    with pytest.raises(StorageError, match=r"a\.npz: truncated or altered"):
+        read_npz(tmp_path / "a.npz", "solution")
+
+
+def test_another_kind_and_python_objects_are_refused(stored, tmp_path):
+    with pytest.raises(StorageError, match="does not hold a mesh"):
+        read_npz(stored, "mesh")
+    with pytest.raises(ValueError, match="allow_pickle"):
+        write_npz(tmp_path / "b.npz", "solution", u=np.array([{}], dtype=object))
+    assert not (tmp_path / "b.npz").exists()
+    np.savez(tmp_path / "c.npz", kind="solution", u=np.array([{}], dtype=object))
+    with pytest.raises(StorageError, match="allow_pickle=False"):
+        read_npz(tmp_path / "c.npz", "solution")
+
+
+def test_tables_come_back_with_every_digit(tmp_path):
+    write_csv(tmp_path / "a.csv", ROWS)
+    assert read_csv(tmp_path / "a.csv", numbers=("n", "l2", "h1")) == ROWS
+
+
+def test_truncated_tables_are_refused_but_between_two_lines(tmp_path):
+    path = tmp_path / "a.csv"
+    write_csv(path, ROWS)
+    content = path.read_bytes()
+    header, first, _ = content.splitlines(keepends=True)
+    for length in set(range(len(content))) - {len(header + first)}:
+        rewrite(path, content[:length])
+        with pytest.raises(StorageError, match="not a readable table"):
+            read_csv(path)
+
+
+def test_a_table_edited_elsewhere_is_read(tmp_path):
+    text = io.StringIO()
+    csv.writer(text).writerows([["a", "b"], ["1", "2,5"]])  # with the line ends of spreadsheets
+    (tmp_path / "a.csv").write_bytes(text.getvalue().encode())
+    assert read_csv(tmp_path / "a.csv") == [{"a": "1", "b": "2,5"}]
+
+
+def test_a_write_that_fails_leaves_what_was(tmp_path):
+    path = tmp_path / "a.txt"
+    write_text(path, "before")
+    with pytest.raises(UnicodeEncodeError):
+        write_text(path, "\ud800")
+    assert path.read_text() == "before"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_a_folder_that_is_a_file_is_reported(tmp_path):
+    (tmp_path / "results").write_text("mine")
+    with pytest.raises(StorageError, match="cannot write"):
+        write_text(tmp_path / "results" / "a.txt", "text")

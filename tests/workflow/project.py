@@ -1,0 +1,172 @@
+"""A copy of the project in a folder of its own, and Snakemake started there as a user would."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PARTS = ["Snakefile", "workflow", "src", "config", "paper", "profiles"]
+TARGETS = {"default", "all"}
+LATEX = bool(shutil.which("latexmk") and shutil.which("pdflatex"))
+# Folders that differ from run to run; everything else under results is a result.
+RECORDS = {"logs", "benchmarks"}
+
+SMALL = """\
+title: A scene for tests
+domain: {kind: rectangle}
+boundary: {top: dirichlet, bottom: contact, left: neumann, right: neumann}
+data: {f: 2*pi*sin(2*pi*x)}
+load_quadrature: centroid
+elements: [P1, CR]
+levels: [2, 4]
+truth: {kind: reference, n: 16}
+norms: [l2, h1]
+slope: mean
+outputs: [errors, rates, table, figures]
+"""
+
+# Written beside the results by every Python process of a run: which modules it had loaded at its end.
+SPY = """\
+import atexit, json, os, sys
+from pathlib import Path
+
+def tell():
+    Path(os.environ["SPY"], f"{os.getpid()}.json").write_text(json.dumps([sys.argv[0], sorted(sys.modules)]))
+
+if os.environ.get("SPY"):
+    atexit.register(tell)
+"""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Exit code of a Snakemake run, and all that it printed."""
+
+    code: int
+    text: str
+
+    @property
+    def errors(self):
+        """The lines that say what went wrong."""
+        return [line for line in self.text.splitlines() if line.startswith("error: ")]
+
+    @property
+    def jobs(self):
+        """Rule -> number of jobs, of the last table of jobs; the targets themselves apart."""
+        tables = re.findall(r"^Job stats:\njob +count\n-+ +-+\n((?:\w+ +\d+\n)+)", self.text, re.M)
+        rows = [line.split() for line in tables[-1].splitlines()] if tables else []
+        return {rule: int(count) for rule, count in rows if rule not in TARGETS | {"total"}}
+
+
+class Project:
+    """A folder that holds the project."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    @classmethod
+    def fresh(cls, folder, scene=SMALL, scenes=("small",)):
+        """The project as it is, nothing built, with a scene more and the configuration set to `scenes`."""
+        left_out = shutil.ignore_patterns("__pycache__")
+        folder.mkdir(parents=True, exist_ok=True)
+        for part in PARTS:
+            if (ROOT / part).is_symlink():
+                (folder / part).symlink_to(os.readlink(ROOT / part))
+            elif (ROOT / part).is_dir():
+                shutil.copytree(ROOT / part, folder / part, ignore=left_out, symlinks=True)
+            else:
+                shutil.copy(ROOT / part, folder)
+        project = cls(folder)
+        project.write("config/scenes/small.yaml", scene)
+        project.ask_for(*scenes)
+        return project
+
+    def copy(self, folder):
+        """This project and all that was built in it, time stamps included."""
+        shutil.copytree(self.folder, folder, symlinks=True, dirs_exist_ok=True)
+        return Project(folder)
+
+    def __truediv__(self, path):
+        return self.folder / path
+
+    def write(self, path, text):
+        """Write a file of the project."""
+        (self / path).write_text(text, encoding="utf-8")
+
+    def edit(self, path, old, new):
+        """Replace a text that a file holds."""
+        text = (self / path).read_text(encoding="utf-8")
+        assert old in text
+        self.write(path, text.replace(old, new))
+
+    def ask_for(self, *scenes):
+        """Set config.yaml to these scenes."""
+        self.write("config/config.yaml", f"scenes: {json.dumps(scenes)}\n")
+
+    def start(self, *arguments, limits=None, **environment):
+        """Start Snakemake on two cores."""
+        command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+        return subprocess.Popen(
+            command,
+            cwd=self.folder,
+            env=os.environ | environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            preexec_fn=limits,
+        )
+
+    def run(self, *arguments, **options):
+        """Run Snakemake on two cores and wait for its end."""
+        with self.start(*arguments, **options) as process:
+            try:
+                text, _ = process.communicate(timeout=300)
+            finally:
+                process.kill()  # only a run that hangs is still there
+        return Run(process.returncode, text)
+
+    def build(self, *arguments, **options):
+        """Run Snakemake and insist that it succeeds."""
+        run = self.run(*arguments, **options)
+        assert run.code == 0, run.text
+        return run
+
+    def jobs(self, *arguments):
+        """Rule -> number of jobs that a run would start."""
+        return self.build("--dry-run", *arguments).jobs
+
+    def spied_build(self, folder, *arguments, **environment):
+        """Build, with a list of every job's modules written to a folder."""
+        (folder / "modules").mkdir(parents=True)
+        (folder / "sitecustomize.py").write_text(SPY)
+        return self.build(*arguments, PYTHONPATH=str(folder), SPY=str(folder / "modules"), **environment)
+
+    def results(self):
+        """Path below results -> content of every result; no logs and no benchmarks."""
+        files = [path for path in (self / "results").rglob("*") if path.is_file()]
+        below = {path.relative_to(self / "results"): path for path in files}
+        return {str(name): path.read_bytes() for name, path in below.items() if not RECORDS & set(name.parts)}
+
+
+def modules_of(folder):
+    """Script -> modules that it had loaded, of a build made by `spied_build`; Snakemake itself is `__main__.py`."""
+    found = {}
+    for path in sorted((folder / "modules").iterdir()):
+        script, modules = json.loads(path.read_text())
+        found.setdefault(Path(script).name, set()).update(modules)
+    return found
+
+
+def side_by_side(function, cases):
+    """Case -> what the function makes of it, two at a time: nearly all of a dry run is the start of Snakemake."""
+    with ThreadPoolExecutor(2) as pool:
+        return dict(zip(cases, pool.map(function, cases), strict=True))

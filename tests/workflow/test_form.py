@@ -1,0 +1,54 @@
+"""The workflow's own form: layout, lint, logs, benchmarks, report."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+from project import ROOT
+
+RULES = {
+    name: body
+    for path in sorted((ROOT / "workflow/rules").glob("*.smk"))
+    for name, body in re.findall(r"^rule (\w+):\n((?: .*\n|\n)+)", path.read_text(encoding="utf-8"), re.M)
+}
+# A script that imports one of these rooms computes; the others format, draw or check.
+COMPUTING = re.compile(r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line)\b", re.M)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_rule(rule):
+    body = RULES[rule]
+    script = re.search(r"workflow/scripts/(\w+\.py)", body).group(1)
+    assert f'library("{script}")' in body
+    assert "    log:\n" in body
+    assert "2>&1 | tee {log:q}" in body
+    code = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
+    assert bool(COMPUTING.search(code)) == ("    benchmark:\n" in body)
+
+
+def test_every_job_has_a_log_of_its_own(all_jobs):
+    """Rules derived by `use rule` inherit the log's name."""
+    for run in all_jobs.values():
+        logs = re.findall(r"^    log: (.*)$", run.text, re.M)
+        assert len(logs) == len(set(logs)) == sum(run.jobs.values())
+
+
+def test_snakemake_finds_nothing_to_complain_about(built_small):
+    """But for its wish for a conda environment: requirements.txt says what every rule needs."""
+    text = built_small.run("--lint").text
+    found = [line for line in text.splitlines() if line.startswith("    * ")]
+    assert [line for line in found if "conda environment or container" not in line] == []
+
+
+@pytest.mark.skipif(not shutil.which("snakefmt"), reason="snakefmt is not installed")
+def test_layout():
+    command = [shutil.which("snakefmt"), "--check", "Snakefile", "workflow"]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+
+
+def test_report(paper):
+    paper.build("--report", "report.html")
+    text = (paper / "report.html").read_text(encoding="utf-8")
+    assert all(name in text for name in ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png", "check.csv"))

@@ -56,6 +56,8 @@ def _resolved(part, root):
 def _line(path, part, root, required, examples):
     values, part = _values(part, root), _resolved(part, root)
     facts = [f"{values[0].upper()}{values[1:]}"]
+    if "x-kind" in part:
+        facts.append(f"only where kind is {part['x-kind']}")
     if required:
         facts.append("required")
     elif "default" in part:

@@ -16,6 +16,7 @@ sys.path.insert(0, str(ROOT / "src"))
 
 from keys import key_list  # noqa: E402 (the path above must come first)
 
+from signorini.exact import FAMILIES  # noqa: E402
 from signorini.strict_yaml import load_yaml  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
@@ -52,9 +53,19 @@ def keys():
     schema, config = load_yaml(ROOT / "workflow/schemas/config.schema.yaml"), load_yaml(ROOT / "config/config.yaml")
     return {
         "scenes": "| scene | what it is |\n| :--- | :--- |\n" + rows,
+        "families": families(),
         "keys of config.yaml": key_list(schema, [config]),
         "keys of a scene": key_list(load_yaml(ROOT / "src/signorini/scene.schema.yaml"), scenes.values()),
     }
+
+
+def families():
+    """The named exact solutions and their parameters, as Markdown."""
+    rows = []
+    for name, found in FAMILIES.items():
+        parameters = ", ".join(f"`{key}` ({part.meaning}; {part.default:g})" for key, part in found.parameters.items())
+        rows.append(f"| `{name}` | {found.title} | {parameters} |\n")
+    return "| family | solution | parameters (meaning; default) |\n| :--- | :--- | :--- |\n" + "".join(rows)
 
 
 def filled(path, texts):

@@ -67,7 +67,7 @@ def test_what_a_file_leaves_out_has_the_schemas_default(load):
     scene = load("\n".join(line for line in VALID.splitlines() if not line.startswith(("title", "elements"))))
     for key in ("title", "elements", "load_quadrature", "norms", "norm_quadrature", "slope"):
         assert scene.document[key] == schema[key]["default"]
-    assert scene.document["data"]["g"] == schema["data"]["properties"]["g"]["default"]
+    assert scene.document["data"]["g"] == 0  # with an exact truth it is derived instead
     assert scene.document["solver"]["method"] == "auto"
 
 

@@ -7,7 +7,9 @@ from decimal import Decimal
 
 from signorini.tables import ELEMENTS, NORMS, fixed, slopes_by_series
 
-SERIES = {f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element) for norm in NORMS for element in ELEMENTS}
+SERIES = {
+    f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element) for norm in ("l2", "h1", "h1_semi") for element in ELEMENTS
+}
 L2_SERIES = {name: key for name, key in SERIES.items() if key[0] == "l2"}
 PRINTED_SERIES = {name: key for name, key in SERIES.items() if key[0] in ("l2", "h1")}
 

@@ -7,11 +7,13 @@ import numpy as np
 
 from signorini.elements import element as find_element
 from signorini.exceptions import FormulaError, SceneError
+from signorini.formula import Formula
 from signorini.load import assemble_load
-from signorini.mesh import Domain, Grid
+from signorini.mesh.grid import Grid
 from signorini.stencil import apply_stiffness
 
 _ROUNDING = 1e-10
+_COARSE = 2**15
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,14 +103,15 @@ def discretize(scene, element, n):
     find_element(element)
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
         raise SceneError(f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8")
-    domain = Domain.from_mapping(statement.domain, statement.boundary)
-    return discretize_on(domain.level(int(n)), element, statement)
+    statement.check()
+    return discretize_on(statement.triangulations.level(int(n)), element, statement)
 
 
 def discretize_on(mesh, element, statement):
     """Discretise a problem statement on a given triangulation; see `discretize`."""
     kind = find_element(element)
     data = statement.data
+    _check_poles(mesh, data.f)
     fixed = kind.boundary_dofs(mesh, "dirichlet")
     contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
     lower, fixed_values = data.obstacle(*kind.nodes(mesh, contact)), data.dirichlet(*kind.nodes(mesh, fixed))
@@ -123,6 +126,14 @@ def discretize_on(mesh, element, statement):
         fixed_values=fixed_values,
         coefficient=_coefficient(mesh, data.coefficient),
     )
+
+
+def _check_poles(mesh, f):
+    """Evaluate f where quadrature may not, at vertices and edge midpoints of coarse meshes: poles tend to be there."""
+    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
+        f(*mesh.p)
+        a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
+        f(*(0.5 * (a + b)))
 
 
 def _check_corners(mesh, data, size):

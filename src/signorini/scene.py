@@ -1,13 +1,13 @@
 """A scene: one whole question, read from a file and validated before any work is done."""
 
-import math
+import os
 import re
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 
-from signorini.exceptions import FormulaError, SceneError
+from signorini.exceptions import SceneError, SignoriniError
+from signorini.scene_checks import check_document
 from signorini.schema import validated
 from signorini.statement import ProblemStatement
 from signorini.strict_yaml import load_yaml
@@ -35,6 +35,11 @@ class Scene:
     def section(self, *keys):
         """The named parts of the document, as a new dict."""
         return {key: self.document[key] for key in keys}
+
+    @property
+    def statement(self):
+        """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict."""
+        return _statement(self.document)
 
     @property
     def elements(self):
@@ -81,11 +86,20 @@ def load_scene(path):
     if "outputs" not in written and document["truth"]["kind"] == "none":
         document["outputs"] = []
     try:
-        _cross_check(document)
-        problem = ProblemStatement.from_mapping(document)
-    except (SceneError, FormulaError) as error:
+        check_document(document)
+        if document["truth"]["kind"] != "exact":
+            document["data"] = dict.fromkeys(("g", "dirichlet", "obstacle"), 0) | document["data"]
+        if document["domain"]["kind"] == "mesh":
+            document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
+        problem = ProblemStatement.from_mapping(_statement(document))
+    except SignoriniError as error:
         raise type(error)(f"{path}: {error}") from None
     return Scene(path.stem, document, problem)
+
+
+def _statement(document):
+    keys = ["domain", "boundary", "data", "load_quadrature"] + ["truth"] * (document["truth"]["kind"] == "exact")
+    return {key: document[key] for key in keys} | {"coarsest": document["levels"][0]}
 
 
 def check_name(name):
@@ -97,31 +111,9 @@ def check_name(name):
         )
 
 
-def _cross_check(document):
-    domain, levels, truth = document["domain"], document["levels"], document["truth"]
-    numbers = [("origin", v) for v in domain["origin"]] + [("size", v) for v in domain["size"]]
-    for key, value in numbers:
-        if not math.isfinite(value) or (key == "size" and value <= 0):
-            raise SceneError(f"domain.{key}: {value} is not valid; it must be finite{', positive' * (key == 'size')}")
-    if any(b <= a for a, b in pairwise(levels)):
-        raise SceneError(f"levels: {levels} is not increasing; list each level once, coarsest first")
-    if truth["kind"] == "reference":
-        _check_reference(levels, truth)
-    if truth["kind"] == "none" and document["outputs"]:
-        raise SceneError(
-            f"outputs: {document['outputs'][0]} needs a truth to compare with; set truth.kind, or write outputs: []"
-        )
+def _mesh_file(file, scene_path):
+    """Path of the mesh file from the working folder; it must lie in the folder above that of the scene."""
+    from signorini.mesh.imported import resolve_mesh_path
 
-
-def _check_reference(levels, truth):
-    if "n" not in truth:
-        raise SceneError("truth.n: missing; give the level of the reference, for instance 512")
-    if truth["n"] < levels[-1]:
-        raise SceneError(f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n")
-    for n in levels:
-        ratio, rest = divmod(truth["n"], n)
-        if rest or ratio & (ratio - 1):
-            raise SceneError(
-                f"levels: {n} does not nest in the reference, truth.n = {truth['n']}; truth.n must be a power of two "
-                f"times every level, for instance {n * 2 ** max(0, (truth['n'] // n).bit_length() - 1)}"
-            )
+    folder = scene_path.absolute().parent
+    return os.path.relpath(resolve_mesh_path(file, folder.parent, folder))

@@ -30,10 +30,11 @@ def validated(document, schema, source):
         One line that names the file, the field, the value and the remedy.
     """
     if not isinstance(document, dict):
-        raise SceneError(f"{source}: expected 'key: value' lines at the top, found {_shown(document)}")
+        raise SceneError(f"{source}: expected 'key: value' lines at the top, found {shown(document)}")
     error = min(_validator()(schema).iter_errors(document), key=_order, default=None)
     if error is not None:
         raise SceneError(f"{source}: {_explain(error)}")
+    _check_kinds(document, schema, source)
     document = copy.deepcopy(document)
     _fill(document, schema)
     return document
@@ -52,9 +53,25 @@ def _order(error):
     return error.validator != "additionalProperties", len(error.absolute_path), str(list(error.absolute_path))
 
 
+def _check_kinds(document, schema, source, field=""):
+    """Refuse a key that belongs to another kind of the section (keyword x-kind)."""
+    for key, part in schema.get("properties", {}).items():
+        if key in document and not _fits(document, part):
+            raise SceneError(
+                f"{source}: {field}{key}: only for kind {part['x-kind']}, here kind is {document['kind']}; "
+                "drop one of the two"
+            )
+        if isinstance(document.get(key), dict):
+            _check_kinds(document[key], part, source, f"{field}{key}.")
+
+
+def _fits(document, part):
+    return "x-kind" not in part or part["x-kind"] == document.get("kind")
+
+
 def _fill(document, schema):
     for key, part in schema.get("properties", {}).items():
-        if key not in document and "default" in part:
+        if key not in document and "default" in part and _fits(document, part):
             document[key] = copy.deepcopy(part["default"])
         if isinstance(document.get(key), dict):
             _fill(document[key], part)
@@ -65,8 +82,8 @@ def _explain(error):
     if error.validator == "additionalProperties":
         known = list(error.schema["properties"])
         key = next(key for key in error.instance if key not in known)
-        shown = key if key.isprintable() and len(key) <= 60 else _shown(key)
-        return f"{field + '.' if field else ''}{shown}: unknown key; {nearest(key, known)}"
+        name = key if key.isprintable() and len(key) <= 60 else shown(key)
+        return f"{field + '.' if field else ''}{name}: unknown key; {nearest(key, known)}"
     if error.validator == "required":
         missing = next(key for key in error.validator_value if key not in error.instance)
         return f"{field + '.' if field else ''}{missing}: missing; add it ({_describe(error.schema, missing)})"
@@ -81,7 +98,7 @@ def _explain(error):
         "pattern": lambda: f"use {error.schema.get('description', error.validator_value)}",
         "uniqueItems": lambda: "list each entry once",
     }.get(error.validator, lambda: error.message)()
-    return f"{field}: {_shown(error.instance)} is not valid; {remedy}"
+    return f"{field}: {shown(error.instance)} is not valid; {remedy}"
 
 
 _TYPES = {
@@ -108,7 +125,8 @@ def _describe(schema, key):
     return schema["properties"][key].get("description", "required").split(".")[0].strip()
 
 
-def _shown(value):
+def shown(value):
+    """A value as JSON, cut to 60 characters."""
     text = json.dumps(value, default=str, ensure_ascii=False)
     return text if len(text) <= 60 else text[:57] + "..."
 

@@ -1,13 +1,17 @@
 """The statement of a problem: what a discretisation depends on, and nothing else of a scene."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from signorini.formula import Formula
 
 
 @dataclass(frozen=True)
 class Data:
-    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle, diffusion coefficient."""
+    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle, diffusion coefficient.
+
+    Data derived from an exact solution are callables of the same interface; such a g also takes the normal.
+    """
 
     f: Formula
     g: Formula
@@ -16,7 +20,7 @@ class Data:
     coefficient: Formula = field(default_factory=lambda: Formula("1", "data.coefficient"))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ProblemStatement:
     """What a discretisation depends on, and nothing else of a scene.
 
@@ -26,15 +30,62 @@ class ProblemStatement:
         The sections of these names of a scene.
     data : Data
     load_quadrature : str or int
+    coarsest : int
+        The coarsest level, from which domains other than rectangles are refined.
+    exact : ExactSolution, optional
+        Where the truth is one.
     """
 
     domain: dict
     boundary: dict
     data: Data
     load_quadrature: str | int
+    coarsest: int = 1
+    exact: object = None
+
+    @cached_property
+    def triangulations(self):
+        """The domain as `mesh.Rectangle` or `mesh.Refined`: the triangulation of every level."""
+        from signorini.mesh.domain import make_domain
+
+        return make_domain(self.domain, self.boundary, self.coarsest)
+
+    def check(self, domain=None):
+        """Hold typed data against an exact truth, and that against Signorini's conditions, on the coarsest level.
+
+        Parameters
+        ----------
+        domain : Rectangle or Refined, optional
+            `triangulations`, where it has been made already.
+
+        Raises
+        ------
+        SceneError
+            Naming the datum or condition, the point, and both values.
+        """
+        if self.exact is not None:
+            from signorini.exact.check import Samples, check_data
+
+            mesh = (domain or self.triangulations).level(self.coarsest)
+            check_data(self.exact, self.data, Samples.of(mesh))
 
     @classmethod
     def from_mapping(cls, mapping):
-        """Build from a mapping with the keys domain, boundary, data and load_quadrature."""
-        data = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items()}
-        return cls(mapping["domain"], mapping["boundary"], Data(**data), mapping["load_quadrature"])
+        """Build from the mapping `Scene.statement`.
+
+        Data that are not typed are derived from the exact truth, or zero.
+        """
+        typed = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items()}
+        exact = None
+        if "truth" in mapping:
+            from signorini.exact import Diffused, derived_data, read_exact
+
+            exact = read_exact(mapping["truth"])
+            if "coefficient" in typed and typed["coefficient"].text != "1":
+                exact = Diffused(exact, typed["coefficient"])
+            data = replace(derived_data(exact), **typed)
+        else:
+            zero = {name: Formula("0", f"data.{name}") for name in ("g", "dirichlet", "obstacle")}
+            data = Data(**zero | typed)
+        parts = (mapping["domain"], mapping["boundary"], data, mapping["load_quadrature"])
+        return cls(*parts, mapping.get("coarsest", 1), exact)

@@ -7,7 +7,9 @@ import pytest
 from project import LATEX, SMALL, modules_of, side_by_side
 
 ERRORS = {"errors": 1, "rates": 1, "table": 1, "figure_convergence": 2}
-SOLVES = {"reference": 1, "solve": 4, "surface": 1, "figure_surface": 1} | ERRORS
+DRAWINGS = {"figure_solution": 1, "figure_contact_line": 1}
+SHOWN = {"field": 1, "contact_line": 1} | DRAWINGS
+SOLVES = {"reference": 1, "solve": 4} | SHOWN | ERRORS
 EVERYTHING = {"mesh": 1} | SOLVES
 
 
@@ -36,11 +38,14 @@ def test_a_copy_with_new_time_stamps_has_nothing_to_do(small):
 
 # Module -> what a changed comment in it starts: any change of content counts, whatever it means.
 MODULES = {
-    "figures/surface.py": {"figure_surface": 1},
-    "figures/style.py": {"figure_surface": 1, "figure_convergence": 2},
+    "figures/surface.py": {},
+    "figures/contact_line.py": {"figure_contact_line": 1},
+    "figures/convergence.py": {"figure_convergence": 2, "figure_contact_line": 1},
+    "figures/style.py": DRAWINGS | {"figure_convergence": 2},
     "rates.py": {"rates": 1, "table": 1, "figure_convergence": 2},
     "errors/reference.py": ERRORS,
-    "contact_line.py": {"surface": 1, "figure_surface": 1},
+    "contact_line.py": SHOWN,
+    "exact/harmonic.py": SOLVES,
     "solvers/contact.py": SOLVES,
     "mesh/domain.py": EVERYTHING,
     "scene.py": {},
@@ -48,13 +53,13 @@ MODULES = {
 
 # What is edited in the scene -> the text, its replacement, and what that starts.
 FIELDS = {
-    "title": ("title: A scene for tests", "title: Another", {}),
+    "title": ("title: A scene for tests", "title: Another", {"figure_solution": 1}),
     "slope": ("slope: mean", "slope: fit", {"table": 1, "figure_convergence": 2}),
     "norms": ("norms: [l2, h1]", "norms: [l2]", ERRORS | {"figure_convergence": 1}),
     "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", ERRORS),
     "outputs": ("[errors, rates, table, figures]", "[errors]", {}),
     "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SOLVES),
-    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", ERRORS | {"solve": 2}),
+    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", ERRORS | SHOWN | {"solve": 2}),
     "boundary": ("left: neumann", "left: dirichlet", EVERYTHING),
     "domain": ("{kind: rectangle}", "{kind: rectangle, diagonal: rising}", EVERYTHING),
 }
@@ -121,7 +126,7 @@ def test_what_a_job_imports_is_among_its_inputs(all_jobs, spied, scene):
 
 def test_a_process_imports_only_what_it_needs(built_small, spied):
     imports = modules_of(spied / "small")
-    drawing = {"figure_surface.py", "figure_convergence.py"}
+    drawing = {"figure_field.py", "figure_contact_line.py", "figure_convergence.py"}
     assert {script for script in imports if "matplotlib" in imports[script]} == drawing
     assert {script for script in imports if {"yaml", "jsonschema"} & imports[script]} == {"__main__.py"}
     assert not {"scipy", "skfem", "signorini.mesh", "signorini.solvers"} & imports["__main__.py"]
@@ -174,3 +179,42 @@ def test_the_paper_without_its_figures_is_not_checked_or_typeset(fresh):
 def test_a_result_by_name(fresh):
     """Of a scene that config.yaml does not list, at a level that the scene does not list."""
     assert fresh.jobs("results/paper/solutions/CR/n128.npz") == {"mesh": 1, "solve": 1}
+
+
+EXACT = """\
+domain: {kind: rectangle}
+boundary: {top: dirichlet, bottom: contact, left: dirichlet, right: dirichlet}
+levels: [4, 8]
+truth: {kind: exact, family: corner, parameters: {x0: 0.4}}
+norms: [l2, trace_l2]
+outputs: [errors, rates, vtu]
+expect: {slopes: {l2: 2}, tolerance: 0.5}
+"""
+
+
+def test_an_exact_truth_needs_no_reference_and_its_expectations_are_checked(fresh):
+    fresh.write("config/scenes/exact.yaml", EXACT)
+    fresh.ask_for("exact")
+    run = fresh.build()
+    assert run.jobs == {"mesh": 1, "solve": 4, "errors": 1, "rates": 1, "expect": 1, "vtu": 2}
+    assert fresh.results()["exact/expect.txt"].startswith(b"as expected: P1 l2 ")
+    header, row, *_ = fresh.results()["exact/errors.csv"].decode().splitlines()
+    filled = {name for name, value in zip(header.split(","), row.split(","), strict=True) if value}
+    assert {"l2", "h1", "h1_semi", "trace_l2"} & filled == {"l2", "trace_l2"}
+
+
+def test_a_disappointed_expectation_stops_the_build(fresh):
+    fresh.write("config/scenes/exact.yaml", EXACT.replace("{l2: 2}", "{l2: 5}"))
+    fresh.ask_for("exact")
+    run = fresh.run()
+    assert run.code != 0
+    assert any("not as the scene expects: P1 l2 slope" in line for line in run.errors)
+
+
+def test_all_scenes_and_the_gallery_enter_the_graph_when_asked_for(fresh):
+    scenes = [path.stem for path in (fresh / "config/scenes").glob("*.yaml")]
+    jobs = fresh.jobs("all_scenes")
+    assert jobs["field"] == len(scenes)
+    assert jobs["gallery"] == 1
+    assert jobs["mesh"] < len(scenes)
+    assert jobs["reference"] < len(scenes)

@@ -7,6 +7,7 @@ import shutil
 import sys
 from functools import cache
 from pathlib import Path
+from shlex import quote
 
 SOURCE = Path("src")
 SCRIPTS = Path("workflow/scripts")
@@ -23,7 +24,6 @@ NAME = "[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
 PUBLISHED = "config/published/table_5_1.csv"
 LATEX = shutil.which("latexmk") and shutil.which("pdflatex")
 FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
-PAPER_NAMES = {"table": "table_5_1.tex"} | dict(zip(["surface", "l2", "h1"], FIGURES))
 
 
 def reported(function):
@@ -113,20 +113,30 @@ def statement(wildcards):
 
 
 def statement_of(name):
-    return as_json(scene(name).section("domain", "boundary", "data", "load_quadrature"))
+    return as_json(scene(name).statement)
 
 
-def mesh_statement(wildcards):
-    """Of the scenes asked for first, so that a broken file elsewhere in config/scenes does no harm."""
-    names = dict.fromkeys([*CONFIG["scenes"], *known_scenes()])
-    shared = next(name for name in names if mesh_key(name) == wildcards.mesh)
-    return as_json(scene(shared).section("domain", "boundary"))
+def domain_of(name):
+    asked = scene(name)
+    return asked.section("domain", "boundary") | {"coarsest": asked.levels[0]}
 
 
 @cache
 def mesh_key(name):
-    """Scenes with the same domain and boundary have the same mesh."""
-    return hashlib.sha256(as_json(scene(name).section("domain", "boundary")).encode()).hexdigest()[:12]
+    """Scenes with the same domain, boundary and coarsest level have the same mesh."""
+    return hashlib.sha256(as_json(domain_of(name)).encode()).hexdigest()[:12]
+
+
+@cache
+def mesh_domain(key):
+    """Of the scenes asked for first, so that a broken file elsewhere in config/scenes does no harm."""
+    names = dict.fromkeys([*CONFIG["scenes"], *known_scenes()])
+    return domain_of(next(name for name in names if mesh_key(name) == key))
+
+
+def mesh_source(wildcards):
+    domain = mesh_domain(wildcards.mesh)["domain"]
+    return [domain["file"]] if domain["kind"] == "mesh" else []
 
 
 def mesh_file(wildcards):
@@ -142,23 +152,59 @@ def solution_files(wildcards):
     return solutions(wildcards.scene)
 
 
-def output_names(name):
-    """File names of a scene's table and figures; the scene `paper` has the paper's own."""
-    generic = {norm: f"figures/{norm}" for norm in ("l2", "h1_semi", "h1")}
-    names = {"table": "table.tex", "surface": "figures/surface"} | generic
-    return names | PAPER_NAMES if name == "paper" else names
+def finest(wildcards, element=None):
+    asked = scene(wildcards.scene)
+    return f"results/{wildcards.scene}/solutions/{element or asked.elements[0]}/n{asked.levels[-1]}.npz"
+
+
+def finest_of_each(wildcards):
+    return [finest(wildcards, element) for element in scene(wildcards.scene).elements]
+
+
+def reference_file(wildcards):
+    """The truth as an input of the errors: a file where it is a reference, none where it is exact."""
+    return [f"results/{wildcards.scene}/reference.npz"] * (scene(wildcards.scene).truth["kind"] == "reference")
+
+
+def truth_option(wildcards, input):
+    if input.reference:
+        return f"--reference {quote(str(input.reference))}"
+    return f"--statement {quote(statement(wildcards))}"
+
+
+def expected(wildcards):
+    return scene(wildcards.scene).document["expect"]
+
+
+def in_table(wildcards):
+    """Norms that a table or figure shows."""
+    return ",".join(scene(wildcards.scene).document["norms"])
 
 
 def scene_output(name):
     """What one scene asks for; what it does not ask for never enters the job graph."""
     asked = scene(name)
-    outputs, names = asked.document["outputs"], output_names(name)
+    outputs, paper = asked.document["outputs"], name == "paper"
     files = [f"{output}.csv" for output in ("errors", "rates") if output in outputs]
-    files += [names["table"]] if "table" in outputs else []
-    if "figures" in outputs and asked.truth["kind"] == "reference":
-        figures = [names["surface"], *(names[norm] for norm in asked.document["norms"])]
+    files += ["table_5_1.tex" if paper else "table.tex"] if "table" in outputs else []
+    files += ["expect.txt"] if "expect" in asked.document else []
+    files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
+    if "figures" in outputs:
+        figures = FIGURES if paper else [f"figures/{figure}" for figure in scene_figures(asked)]
         files += [f"{figure}.{ending}" for figure in figures for ending in ("pdf", "png")]
     return solutions(name) + [f"results/{name}/{file}" for file in files]
+
+
+def scene_figures(asked):
+    document = asked.document
+    figures = ["solution"] + ["contact_line"] * has_contact(document["boundary"])
+    if "rates" in document["outputs"]:
+        figures += [norm for norm in document["norms"] if norm != "critical_points"]
+    return figures
+
+
+def has_contact(boundary):
+    return "contact" in boundary or "contact" in boundary.values()
 
 
 def paper_output():
@@ -166,6 +212,18 @@ def paper_output():
     if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(scene("paper").document["outputs"]):
         return []
     return [f"results/paper/{file}" for file in ("check.csv", "check.txt", "paper.pdf")[: 3 if LATEX else 2]]
+
+
+def all_scenes():
+    return [file for name in known_scenes() for file in scene_output(name)]
+
+
+def gallery_fields(wildcards):
+    return [f"results/{name}/field.npz" for name in known_scenes()]
+
+
+def gallery_titles(wildcards):
+    return as_json({name: scene(name).document["title"] for name in known_scenes()})
 
 
 def final_output():

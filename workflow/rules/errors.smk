@@ -1,11 +1,11 @@
-# From solutions to numbers: errors against the reference, and their slopes.
+# From solutions to numbers: errors against the truth, their slopes, and whether they are what the scene expects.
 
 
 rule errors:
     input:
         library("errors.py"),
         mesh=mesh_file,
-        reference="results/{scene}/reference.npz",
+        reference=reference_file,
         solutions=solution_files,
     output:
         "results/{scene}/errors.csv",
@@ -15,10 +15,11 @@ rule errors:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
     params:
-        norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
+        norms=in_table,
+        truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
     shell:
-        "python3 workflow/scripts/errors.py --mesh {input.mesh:q} --reference {input.reference:q}"
+        "python3 workflow/scripts/errors.py --mesh {input.mesh:q} {params.truth}"
         " --norms {params.norms} --quadrature {params.quadrature}"
         " --output {output:q} {input.solutions:q} 2>&1 | tee {log:q}"
 
@@ -34,3 +35,21 @@ rule rates:
     priority: 6
     shell:
         "python3 workflow/scripts/rates.py --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"
+
+
+rule expect:
+    input:
+        library("expect.py"),
+        errors="results/{scene}/errors.csv",
+        rates=lambda wildcards: ["results/{scene}/rates.csv"] * bool(expected(wildcards)["slopes"]),
+    output:
+        "results/{scene}/expect.txt",
+    log:
+        "results/{scene}/logs/expect.log",
+    params:
+        expected=lambda wildcards: as_json(expected(wildcards)),
+        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
+        rates=lambda wildcards, input: f"--rates {quote(str(input.rates))}" if input.rates else "",
+    shell:
+        "python3 workflow/scripts/expect.py --expected {params.expected:q} --slope {params.slope}"
+        " --errors {input.errors:q} {params.rates} --output {output:q} 2>&1 | tee {log:q}"

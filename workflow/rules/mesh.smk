@@ -1,9 +1,10 @@
-# The domain of a scene: its coarsest labelled triangulation. Scenes with the same domain and boundary share the file.
+# The domain of a scene, which every level is refined from. Scenes with the same domain and boundary share the file.
 
 
 rule mesh:
     input:
         library("mesh.py"),
+        source=mesh_source,
     output:
         "results/meshes/{mesh}.npz",
     log:
@@ -11,6 +12,6 @@ rule mesh:
     benchmark:
         "results/benchmarks/mesh/{mesh}.tsv"
     params:
-        domain=mesh_statement,
+        domain=lambda wildcards: as_json(mesh_domain(wildcards.mesh)),
     shell:
         "python3 workflow/scripts/mesh.py --domain {params.domain:q} --output {output:q} 2>&1 | tee {log:q}"

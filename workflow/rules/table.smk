@@ -12,7 +12,7 @@ rule table:
     log:
         "results/{scene}/logs/table.log",
     params:
-        norms=lambda wildcards: ",".join(scene(wildcards.scene).document["norms"]),
+        norms=in_table,
         elements=lambda wildcards: ",".join(scene(wildcards.scene).elements),
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],
     shell:

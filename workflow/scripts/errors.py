@@ -1,30 +1,35 @@
-"""Errors of the solutions of a scene against its reference."""
+"""Errors of the solutions of a scene against its truth: a reference, or an exact solution."""
+
+import json
 
 from stage import options, run
 
-from signorini.errors import ReferenceErrors
+from signorini.errors import measure
 from signorini.mesh import read_domain
 from signorini.results import read_solution
 from signorini.storage import write_csv
 
 
-@options("--mesh", "--reference", "--norms", "--quadrature", "--output", ("solutions", {"nargs": "+"}))
+@options(
+    "--mesh",
+    ("--reference", {"required": False}),
+    ("--statement", {"required": False}),
+    "--norms",
+    "--quadrature",
+    "--output",
+    ("solutions", {"nargs": "+"}),
+)
 def main(arguments):
-    """Solutions and reference to one row per solution."""
+    """Solutions and truth (a stored reference, or the statement of a scene with an exact one) to a row each."""
     domain = read_domain(arguments.mesh)
-    truth = read_solution(arguments.reference)
     norms = arguments.norms.split(",")
-    mesh = domain.level(truth.n)
-    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, arguments.quadrature)
-    rows = []
-    for path in arguments.solutions:
-        found = read_solution(path)
-        row = {"element": found.element, "n": found.n, "h": found.h, "dofs": found.dofs}
-        row |= errors.of(domain.level(found.n), found.element, found.u)
-        row |= {"residual": found.residual, "status": found.status, "iterations": found.iterations}
-        rows.append(row | {"method": found.method})
+    if arguments.reference:
+        errors = measure.against_reference(read_solution(arguments.reference), domain, norms, arguments.quadrature)
+    else:
+        errors = measure.against_exact(json.loads(arguments.statement), domain, norms)
+    rows = [measure.row(read_solution(path), errors) for path in arguments.solutions]
     write_csv(arguments.output, rows)
-    return f"errors: {len(rows)} solutions against {truth.element} n = {truth.n}"
+    return f"errors: {len(rows)} solutions"
 
 
 if __name__ == "__main__":

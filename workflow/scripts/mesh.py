@@ -1,18 +1,20 @@
-"""Write the coarsest labelled triangulation of a domain."""
+"""Make the domain of a scene: what every level is refined from."""
 
 import json
 
 from stage import options, run
 
-from signorini.mesh.domain import Domain, write_domain
+from signorini.mesh.domain import make_domain, write_domain
 
 
 @options("--domain", "--output")
 def main(arguments):
-    """Sections domain and boundary of a scene, as JSON, to a file that every level is refined from."""
-    domain = Domain.from_mapping(**json.loads(arguments.domain))
+    """Sections domain and boundary of a scene and its coarsest level, as JSON, to a file for all levels."""
+    statement = json.loads(arguments.domain)
+    domain = make_domain(**statement)
     write_domain(arguments.output, domain)
-    return f"mesh: rectangle of {domain.size[0]:g} by {domain.size[1]:g}, {domain.diagonal} diagonals"
+    triangles = domain.level(statement["coarsest"]).number_of_triangles
+    return f"mesh: {statement['domain']['kind']}, {triangles} triangles at n = {statement['coarsest']}"
 
 
 if __name__ == "__main__":

@@ -13,9 +13,10 @@ from signorini.statement import ProblemStatement
 
 @options("--statement", "--mesh", "--element", ("--n", {"type": int}), "--method", "--output")
 def main(arguments):
-    """Sections domain, boundary, data and load_quadrature of a scene, as JSON, to a .npz with u and multiplier."""
+    """A scene's statement, as JSON, to a .npz with u and multiplier."""
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
     domain = read_domain(arguments.mesh)
+    statement.check(domain)
     problem = discretize_on(domain.level(arguments.n), arguments.element, statement)
     solution = solve(problem, arguments.method)
     write_solution(arguments.output, problem, solution, arguments.n, domain.mesh_size(arguments.n))

@@ -1,45 +1,80 @@
-"""The domain of a scene: its coarsest labelled triangulation, of which every level n is a refinement."""
+"""The domain of a scene: what every level of its triangulations is made from.
+
+A rectangle is cut anew at every level, mostly into a `Grid`, which is arithmetic. Any other domain is triangulated
+once, its root, and every level is a uniform refinement of it.
+"""
 
 import json
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
-from signorini.exceptions import MeshError, StorageError
+import numpy as np
+
+from signorini.exceptions import MeshError
 from signorini.mesh.grid import CORNERS, SIDES, Grid
 from signorini.storage import read_npz, write_npz
 
+_LABELS = ("dirichlet", "contact", "neumann")
 
-@dataclass(frozen=True)
-class Domain:
-    """A rectangle and what holds on its sides.
+
+def make_domain(domain, boundary, coarsest):
+    """Build a domain from the sections ``domain`` and ``boundary`` of a scene.
 
     Parameters
     ----------
-    origin, size : tuple of float
+    domain, boundary : dict
+        Validated, defaults filled in, a mesh file's path resolved.
+    coarsest : int
+        The coarsest level: that of the root where there is one.
+
+    Returns
+    -------
+    Rectangle or Refined
+
+    Raises
+    ------
+    MeshError
+        If the domain cannot be triangulated or its boundary not be labelled.
+    """
+    if domain.get("kind", "rectangle") == "rectangle":
+        keys = ("origin", "size", "diagonal", "cells")
+        return Rectangle(**{key: domain[key] for key in keys}, boundary=boundary, **_studies(domain))
+    from signorini.mesh.labels import labelled
+
+    mesh = _root(domain, coarsest)
+    if "perturb" in domain:
+        mesh = _perturbed(mesh, domain["perturb"])
+    width = _longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
+    return Refined(labelled(mesh, _rules(boundary)), coarsest, width, boundary if _by_formula(boundary) else None)
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A rectangle and what holds on its boundary.
+
+    Parameters
+    ----------
+    origin, size : sequence of float
         Lower left corner and side lengths, in the user's unit of length.
-    diagonal : {"falling", "rising"}
-        How every cell is cut; see `Grid`.
+    diagonal : {"falling", "rising", "alternating", "criss-cross"}
+        How every cell is cut.
     cells : {"per-unit", "per-side"}
         Whether level n has n cells per unit of length (h = 1/n) or n along each side.
-    labels : tuple of str
-        ``"dirichlet"``, ``"contact"`` or ``"neumann"`` for each of `mesh.grid.SIDES`.
+    boundary : dict
+        Side -> label, or label -> formula.
+    grade : dict, optional
+        ``towards`` (sides) and ``exponent`` of a grading.
+    perturb : dict, optional
+        ``amount`` and ``seed`` of a random perturbation of the interior vertices.
     """
 
     origin: tuple[float, float]
     size: tuple[float, float]
     diagonal: str
     cells: str
-    labels: tuple[str, str, str, str]
-
-    @classmethod
-    def from_mapping(cls, domain, boundary):
-        """Build from the sections ``domain`` and ``boundary`` of a scene."""
-        return cls(
-            origin=tuple(float(v) for v in domain["origin"]),
-            size=tuple(float(v) for v in domain["size"]),
-            diagonal=domain["diagonal"],
-            cells=domain["cells"],
-            labels=tuple(boundary[side] for side in SIDES),
-        )
+    boundary: dict
+    grade: dict | None = None
+    perturb: dict | None = None
 
     def counts(self, n):
         """Cells along x and y at level n.
@@ -53,7 +88,7 @@ class Domain:
             return n, n
         counts = [n * side for side in self.size]
         for axis, count in zip("xy", counts, strict=True):
-            if abs(count - round(count)) > 1e-9 * count or round(count) < 1:
+            if round(count) < 1 or abs(count - round(count)) > 1e-9 * count:
                 raise MeshError(
                     f"domain.size: level n = {n} cuts the {axis} side into {count:.6g} cells; choose n so that "
                     "n times the side is a whole number, or set domain.cells to per-side"
@@ -61,20 +96,148 @@ class Domain:
         return round(counts[0]), round(counts[1])
 
     def level(self, n):
-        """The triangulation of level n, a `Grid`."""
-        nx, ny = self.counts(n)
-        return Grid(nx, ny, self.origin, self.size, self.diagonal, self.labels)
+        """The triangulation of level n: a `Grid` where arithmetic describes it, else a `Triangulation`."""
+        from signorini.mesh.check import check_resolution
+
+        counts, origin, size = self.counts(n), tuple(map(float, self.origin)), tuple(map(float, self.size))
+        upper = [a + b for a, b in zip(origin, size, strict=True)]
+        check_resolution(origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain")
+        plain = self.diagonal in CORNERS and not _by_formula(self.boundary)
+        if plain and self.grade is None and self.perturb is None:
+            return Grid(*counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES))
+        from signorini.mesh import patterns
+        from signorini.mesh.labels import NamedMesh, labelled, with_sides
+
+        if self.diagonal in CORNERS:
+            grid = Grid(*counts, origin, size, self.diagonal, ("neumann",) * 4)
+            mesh = with_sides(NamedMesh(grid.p, grid.t, source="rectangle"))
+        else:
+            pattern = {"alternating": patterns.alternating, "criss-cross": patterns.criss_cross}[self.diagonal]
+            mesh = pattern(*counts, origin, size)
+        if self.grade is not None:
+            mesh = patterns.graded(mesh, self.grade["towards"], self.grade["exponent"])
+        if self.perturb is not None:
+            mesh = _perturbed(mesh, self.perturb)
+        return labelled(mesh, _rules(self.boundary))
 
     def mesh_size(self, n):
         """The mesh width h of level n: 1/n, or the longer side of a cell; unit of length."""
         return 1.0 / n if self.cells == "per-unit" else max(self.size) / n
 
 
+@dataclass(frozen=True, eq=False)
+class Refined:
+    """A root triangulation and its uniform refinements.
+
+    Parameters
+    ----------
+    root : Triangulation
+    coarsest : int
+        The root's level.
+    width : float
+        The root's mesh width, unit of length.
+    boundary : dict, optional
+        Label -> formula; applied again on every level. Without it the root's labels are inherited.
+    """
+
+    root: object
+    coarsest: int
+    width: float
+    boundary: dict | None = None
+
+    @cached_property
+    def _levels(self):
+        return {self.coarsest: self.root}
+
+    def level(self, n):
+        """The triangulation of level n.
+
+        Raises
+        ------
+        MeshError
+            If n is no power of two times the root's level.
+        """
+        ratio, rest = divmod(n, self.coarsest)
+        if rest or ratio < 1 or ratio & (ratio - 1):
+            raise MeshError(f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it")
+        if n not in self._levels:
+            self._levels[n] = self._refined(self.level(n // 2))
+        return self._levels[n]
+
+    def _refined(self, parent):
+        finer = parent.refined()
+        if self.boundary is None:
+            return finer
+        from signorini.mesh.labels import NamedMesh, label_boundary
+        from signorini.mesh.triangulation import Triangulation
+
+        labels = label_boundary(NamedMesh(finer.p, finer.t), _rules(self.boundary))
+        return Triangulation(finer.skfem.with_boundaries(labels), parent)
+
+    def mesh_size(self, n):
+        """The mesh width h of level n: half the root's for each doubling of n; unit of length."""
+        return self.width * self.coarsest / n
+
+
+def _root(domain, coarsest):
+    if domain["kind"] == "mesh":
+        from signorini.mesh.imported import import_mesh
+
+        return import_mesh(domain["file"])
+    from signorini.mesh.polygon import triangulate
+
+    return triangulate(domain["corners"], domain["holes"], 1.0 / coarsest, domain.get("sides"))
+
+
+def _studies(domain):
+    return {key: domain[key] for key in ("grade", "perturb") if key in domain}
+
+
+def _perturbed(mesh, perturb):
+    from signorini.mesh.patterns import perturbed
+
+    return perturbed(mesh, perturb["amount"], perturb["seed"])
+
+
+def _longest_edge(mesh):
+    a, b = mesh.facets
+    return float(np.hypot(*(mesh.p[:, a] - mesh.p[:, b])).max())
+
+
+def _by_formula(boundary):
+    return any(name in _LABELS for name in boundary)
+
+
+def _rules(boundary):
+    """Rules for `labels.label_boundary`; "rest" takes the facets that no formula takes."""
+    if not _by_formula(boundary):
+        return boundary
+    from signorini.formula import Formula
+
+    formulas = {label: Formula(text, f"boundary.{label}") for label, text in boundary.items() if text != "rest"}
+    rules = [(formula, label) for label, formula in formulas.items()]
+    rest = [label for label, text in boundary.items() if text == "rest"]
+    return rules + [(_none_of(formulas.values()), label) for label in rest]
+
+
+def _none_of(formulas):
+    def positive_elsewhere(x, y):
+        taken = np.zeros(np.broadcast(x, y).shape, dtype=bool)
+        for formula in formulas:
+            taken |= formula(x, y) > 0.0
+        return np.where(taken, -1.0, 1.0)
+
+    return positive_elsewhere
+
+
 def write_domain(path, domain):
     """Store a domain with its coarsest triangulation: vertices, triangles, labelled facets."""
-    root = Grid(1, 1, domain.origin, domain.size, domain.diagonal, domain.labels)
-    facets = {f"facets_{side}": root.facets[:, root.side_facets(side)] for side in SIDES}
-    write_npz(path, kind="domain", p=root.p, t=root.t, specification=json.dumps(asdict(domain)), **facets)
+    if isinstance(domain, Rectangle):
+        write_npz(path, kind="domain", specification=json.dumps({"kind": "rectangle"} | asdict(domain)))
+        return
+    specification = {"kind": "refined", "coarsest": domain.coarsest, "width": domain.width, "boundary": domain.boundary}
+    labels = {label: domain.root.boundary_facets(label) for label in _LABELS}
+    write_npz(path, kind="domain", specification=json.dumps(specification), p=domain.root.p, t=domain.root.t, **labels)
 
 
 def read_domain(path):
@@ -85,8 +248,13 @@ def read_domain(path):
     StorageError
         If the file is missing, truncated, altered, or not a domain.
     """
-    fields = json.loads(str(read_npz(path, kind="domain")["specification"]))
-    domain = Domain(**{key: tuple(v) if isinstance(v, list) else v for key, v in fields.items()})
-    if domain.diagonal not in CORNERS:
-        raise StorageError(f"{path}: unknown diagonal {domain.diagonal!r}; delete the file and rerun")
-    return domain
+    arrays = read_npz(path, kind="domain")
+    fields = json.loads(str(arrays["specification"]))
+    if fields.pop("kind") == "rectangle":
+        return Rectangle(**fields)
+    from skfem import MeshTri
+
+    from signorini.mesh.triangulation import Triangulation
+
+    mesh = MeshTri(arrays["p"], arrays["t"]).with_boundaries({label: arrays[label] for label in _LABELS})
+    return Refined(Triangulation(mesh), **fields)

@@ -1,0 +1,46 @@
+"""What a scene expects of its own results."""
+
+from signorini.exceptions import SignoriniError
+
+_NORMS = ("l2", "h1_semi", "h1", "trace_l2", "multiplier_l2")
+
+
+def check_expectations(expected, errors, rates, source):
+    """Compare results with the section ``expect`` of a scene.
+
+    Parameters
+    ----------
+    expected : dict
+        ``slopes`` (norm -> slope), ``tolerance``, and perhaps ``errors_below``.
+    errors, rates : sequence of mapping
+        Rows of errors.csv (text) and rates.csv, of one kind of slope, slopes as numbers.
+    source : str or Path
+        The file to name in errors.
+
+    Returns
+    -------
+    str
+        One line that says what was found.
+
+    Raises
+    ------
+    SignoriniError
+        Listing all that is off.
+    """
+    wrong = [
+        f"{row['element']} {row['norm']} slope {row['slope']:.3f}, expected {expected['slopes'][row['norm']]:g}"
+        for row in rates
+        if row["norm"] in expected["slopes"]
+        and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
+    ]
+    bound = expected.get("errors_below", float("inf"))
+    sizes = [(float(row[norm]), row["element"], row["n"], norm) for row in errors for norm in _NORMS if row.get(norm)]
+    wrong += [
+        f"{element} n = {n} {norm} error {size:.2e}, expected below {bound:g}"
+        for size, element, n, norm in sizes
+        if not size < bound
+    ]
+    if wrong:
+        raise SignoriniError(f"{source}: not as the scene expects: {'; '.join(wrong)}")
+    found = [f"{row['element']} {row['norm']} {row['slope']:.2f}" for row in rates if row["norm"] in expected["slopes"]]
+    return "as expected: " + (", ".join(found) if found else f"largest error {max(sizes)[0]:.1e}")

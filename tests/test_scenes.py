@@ -1,0 +1,84 @@
+"""The scenes that ship: each is valid, solves on every level, and finds what it expects."""
+
+from pathlib import Path
+
+import pytest
+
+import signorini
+from signorini.errors.measure import against_exact
+from signorini.expect import check_expectations
+from signorini.rates import slopes
+from signorini.results import StoredSolution
+
+FOLDER = Path(__file__).parents[1] / "config" / "scenes"
+NAMES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
+ISSUE = {
+    "paper", "paper-exact", "corner", "punch", "smooth", "biactive", "patch", "uniform-load", "many-contacts",
+    "obstacle", "glacis", "l-shape", "gasket", "figure-2-1",
+}  # fmt: skip
+
+
+def scene(name):
+    return signorini.load_scene(FOLDER / f"{name}.yaml")
+
+
+EXACT = [name for name in NAMES if scene(name).truth["kind"] == "exact"]
+
+
+def stored(problem, solution, n, h):
+    parts = {key: getattr(solution, key) for key in ("u", "multiplier", "active", "residual", "accuracy", "status")}
+    return StoredSolution(
+        problem.element, n, h, problem.free.size, contact=problem.contact, lower=problem.lower,
+        iterations=solution.iterations, method=solution.method, **parts,
+    )  # fmt: skip
+
+
+def test_the_scenes_that_should_ship_do():
+    assert set(NAMES) >= ISSUE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_coarsest_level_is_solved_and_says_how(name):
+    asked = scene(name)
+    for element in asked.elements:
+        problem = signorini.discretize(asked, element, asked.levels[0])
+        solution = signorini.solve(problem)
+        assert solution.status == "solved"
+        assert solution.reason
+        assert (solution.u[problem.contact] >= problem.lower).all()
+        assert (solution.multiplier >= 0).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_scene_says_what_it_is(name):
+    assert scene(name).document["title"]
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_an_exact_scene_finds_what_it_expects(name):
+    asked = scene(name)
+    assert "expect" in asked.document
+    domain = asked.problem.triangulations
+    errors = against_exact(asked.statement, domain, asked.document["norms"])
+    table, rates = [], []
+    for element in asked.elements:
+        rows = []
+        for n in asked.levels:
+            problem = signorini.discretize(asked, element, n)
+            found = errors(stored(problem, signorini.solve(problem), n, domain.mesh_size(n)))
+            rows.append({"element": element, "n": n} | found)
+        h = [domain.mesh_size(n) for n in asked.levels]
+        for norm in asked.document["expect"]["slopes"]:
+            slope = slopes(h, [row[norm] for row in rows])[asked.document["slope"]]
+            rates.append({"element": element, "norm": norm, "slope": slope})
+        table += rows
+    assert check_expectations(asked.document["expect"], table, rates, name).startswith("as expected")
+
+
+def test_what_a_scene_does_not_expect_is_refused():
+    rates = [{"element": "P1", "norm": "l2", "slope": 1.5}]
+    with pytest.raises(signorini.SignoriniError, match=r"P1 l2 slope 1\.500, expected 2"):
+        check_expectations({"slopes": {"l2": 2}, "tolerance": 0.1}, [], rates, "errors.csv")
+    errors = [{"element": "CR", "n": "4", "l2": "1e-3"}]
+    with pytest.raises(signorini.SignoriniError, match=r"CR n = 4 l2 error 1\.00e-03, expected below 1e-12"):
+        check_expectations({"slopes": {}, "tolerance": 0.1, "errors_below": 1e-12}, errors, [], "errors.csv")

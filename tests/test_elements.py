@@ -32,7 +32,7 @@ def kind(request):
 def edge_means(mesh, function):
     """The CR interpolant Pi_h of Lemma 4.1."""
     start, end = mesh.p[:, mesh.facets[0]], mesh.p[:, mesh.facets[1]]
-    points, weights = interval_rule(9)
+    points, weights = interval_rule(15)
     return sum(w * function(*((1 - s) * start + s * end)) for s, w in zip(points, weights, strict=True))
 
 
@@ -49,14 +49,14 @@ def test_nodes_lie_where_the_barycentric_coordinates_say(kind, mesh):
     every = kind.nodes(mesh, np.arange(kind.size(mesh)))
     corners = mesh.p[:, mesh.t]
     for dofs, barycentric in zip(kind.triangle_dofs(mesh), NODES[kind.name].T, strict=True):
-        np.testing.assert_allclose(every[:, dofs], np.einsum("dkt,k->dt", corners, barycentric), atol=1e-15)
+        np.testing.assert_allclose(every[:, dofs], np.einsum("dkt,k->dt", corners, barycentric), rtol=0, atol=1e-15)
 
 
 def test_affine_functions_are_reproduced(kind, mesh):
     x, y = kind.nodes(mesh, np.arange(kind.size(mesh)))
     vertex_x, vertex_y = mesh.p[:, mesh.t]
     values = kind.vertex_values(mesh, 1 + 2 * x - 3 * y)
-    np.testing.assert_allclose(values, 1 + 2 * vertex_x - 3 * vertex_y, atol=1e-13)
+    np.testing.assert_allclose(values, 1 + 2 * vertex_x - 3 * vertex_y, rtol=0, atol=1e-13)
 
 
 def test_a_discrete_function_is_the_one_scikit_fem_means(kind, mesh):
@@ -65,8 +65,8 @@ def test_a_discrete_function_is_the_one_scikit_fem_means(kind, mesh):
     basis = Basis(mesh.skfem, kind.skfem(), quadrature=(points[1:], 0.5 * weights))
     found = basis.interpolate(u)
     values = kind.vertex_values(mesh, u)
-    np.testing.assert_allclose(values.T @ points, np.asarray(found), atol=1e-13)
-    np.testing.assert_allclose(mesh.gradients(values), found.grad[:, :, 0], atol=1e-11)
+    np.testing.assert_allclose(values.T @ points, np.asarray(found), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(mesh.gradients(values), found.grad[:, :, 0], rtol=0, atol=1e-11)
 
 
 def test_the_degrees_of_freedom_are_counted_by_eulers_formula(kind, mesh):
@@ -81,17 +81,20 @@ def test_the_mass_matrix_of_cr_is_diagonal():
     mesh, kind = delaunay(1), element("CR")
     mass = BilinearForm(lambda u, v, _: u * v).assemble(Basis(mesh.skfem, kind.skfem(), intorder=2)).toarray()
     third = np.bincount(mesh.t2f.ravel(), np.tile(mesh.area / 3, 3))
-    np.testing.assert_allclose(mass, np.diag(third), atol=1e-16)
+    np.testing.assert_allclose(mass, np.diag(third), rtol=0, atol=1e-16)
 
 
 def test_edge_means_commute_with_the_gradient(mesh):
     """The gradient of Pi_h v is the elementwise mean of the gradient of v, the property behind Lemma 4.1."""
     u = edge_means(mesh, lambda x, y: np.sin(2 * x + y) + x * y**2)
-    points, weights = triangle_rule(11)
+    points, weights = triangle_rule(15)
     x, y = np.einsum("dkt,kq->dqt", mesh.p[:, mesh.t], points)
     gradient = np.stack([2 * np.cos(2 * x + y) + y**2, np.cos(2 * x + y) + 2 * x * y])
     mean = np.einsum("dqt,q->dt", gradient, weights)
-    np.testing.assert_allclose(mesh.gradients(element("CR").vertex_values(mesh, u)), mean, atol=1e-11)
+    difference = np.abs(mesh.gradients(element("CR").vertex_values(mesh, u)) - mean)
+    longest = np.hypot(*(mesh.p[:, mesh.facets[0]] - mesh.p[:, mesh.facets[1]]))[mesh.t2f].max(axis=0)
+    # Rounding of the values of u, divided by the height of the triangle; some are slivers.
+    assert np.all(difference <= 16 * np.finfo(float).eps * np.abs(u).max() * longest / mesh.area)
 
 
 def test_a_conforming_function_is_a_cr_function(mesh):
@@ -99,7 +102,7 @@ def test_a_conforming_function_is_a_cr_function(mesh):
     u = rng.standard_normal(mesh.number_of_vertices)
     midpoints = 0.5 * u[mesh.facets].sum(axis=0)
     conforming, nonconforming = (element(name).vertex_values(mesh, v) for name, v in (("P1", u), ("CR", midpoints)))
-    np.testing.assert_allclose(conforming, nonconforming, atol=1e-14)
+    np.testing.assert_allclose(conforming, nonconforming, rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize(("label", "line"), [("contact", 0.0), ("dirichlet", 1.0)])

@@ -68,7 +68,7 @@ def test_triangles_are_equal_counterclockwise_and_start_at_the_right_angle(mesh)
     a, b, c = (mesh.p[:, v] for v in mesh.t)
     ab, ac = b - a, c - a
     np.testing.assert_allclose(ab[0] * ac[1] - ab[1] * ac[0], 2 * mesh.area, rtol=1e-14)
-    np.testing.assert_allclose((ab * ac).sum(axis=0), 0, atol=1e-15)
+    np.testing.assert_allclose((ab * ac).sum(axis=0), 0, rtol=0, atol=1e-15)
     assert mesh.area * mesh.number_of_triangles == pytest.approx(1.5, rel=1e-14)
     slope = (b - c)[1] / (b - c)[0]
     assert np.all(slope < 0 if mesh.diagonal == "falling" else slope > 0)
@@ -88,7 +88,7 @@ def test_splitting_the_edges_sorts_them_by_direction(mesh):
     start, end = (mesh.p[:, ends] for ends in mesh.facets)
     for part, extent in zip(parts, ((hx, 0), (0, hy), (hx, hy)), strict=True):
         found = np.abs(end - start)[:, part.ravel()]
-        np.testing.assert_allclose(found, np.broadcast_to(np.reshape(extent, (2, 1)), found.shape), atol=1e-14)
+        np.testing.assert_allclose(found, np.broadcast_to(np.reshape(extent, (2, 1)), found.shape), rtol=0, atol=1e-14)
 
 
 def test_coarser_keeps_every_second_vertex(nested):
@@ -110,10 +110,10 @@ def test_children_halve_their_parent(nested):
     for axis in range(2):
         family = nested.children(nested.p[axis][nested.t])
         for k, i in np.ndindex(3, 3):
-            np.testing.assert_allclose(family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), atol=1e-14)
+            np.testing.assert_allclose(family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), rtol=0, atol=1e-14)
         for i in range(3):
             others = corners[(i + 1) % 3, axis] + corners[(i + 2) % 3, axis]
-            np.testing.assert_allclose(family[3, i], 0.5 * others, atol=1e-14)
+            np.testing.assert_allclose(family[3, i], 0.5 * others, rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3])

@@ -113,15 +113,22 @@ def inputs_of_scripts(text):
     return inputs
 
 
+def left_out(modules, inputs):
+    """Rooms of the library that a job imported and that are not among its inputs."""
+    own = [name for name in modules if name.partition(".")[0] == "signorini"]
+    stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
+    return [stem for stem in stems if not {f"{stem}.py", f"{stem}/__init__.py"} & inputs]
+
+
 @pytest.mark.parametrize("scene", ["small", "paper"])
 def test_what_a_job_imports_is_among_its_inputs(all_jobs, spied, scene):
     inputs = inputs_of_scripts(all_jobs[scene].text)
     imports = modules_of(spied / scene)
-    assert imports.keys() >= inputs.keys() - {"stage.py"}
-    for script in inputs.keys() - {"stage.py"}:
-        own = [name for name in imports[script] if name.partition(".")[0] == "signorini"]
-        stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
-        assert not [stem for stem in stems if not {f"{stem}.py", f"{stem}/__init__.py"} & inputs[script]], script
+    scripts = inputs.keys() - {"stage.py"}
+    assert imports.keys() >= scripts
+    assert {script: left_out(imports[script], inputs[script]) for script in scripts} == {
+        script: [] for script in scripts
+    }
 
 
 def test_a_process_imports_only_what_it_needs(built_small, spied):
@@ -147,14 +154,18 @@ def without_mesh(results):
     return sorted(results.keys() - set(meshes))
 
 
-def test_what_is_not_asked_for_is_not_built(fresh, tmp_path):
+def test_what_is_not_asked_for_is_not_built(fresh, tmp_path, all_jobs):
     lean = SMALL.replace("[P1, CR]", "[P1]").replace("[l2, h1]", "[l2]")
     fresh.write("config/scenes/lean.yaml", re.sub("outputs: .*", "outputs: [errors]", lean))
-    fresh.write("config/scenes/bare.yaml", re.sub("(truth|outputs|norms|slope): .*\n", "", SMALL))
+    bare = re.sub("(truth|outputs|norms|slope): .*\n", "", SMALL)
+    fresh.write("config/scenes/bare.yaml", f"{bare}solver: {{method: direct}}\n")
     fresh.ask_for("lean", "bare")
     run = fresh.spied_build(tmp_path / "spied")
     assert run.jobs == {"mesh": 1, "reference": 1, "solve": 6, "errors": 1}
-    assert not [script for script, names in modules_of(tmp_path / "spied").items() if "matplotlib" in names]
+    imports = modules_of(tmp_path / "spied")
+    assert not [script for script in imports if "matplotlib" in imports[script]]
+    assert "signorini.solvers.direct" in imports["solve.py"]
+    assert not left_out(imports["solve.py"], inputs_of_scripts(all_jobs["small"].text)["solve.py"])
     names = [f"bare/solutions/{element}/n{n}.npz" for element in ("CR", "P1") for n in (2, 4)]
     names += ["lean/errors.csv", "lean/reference.npz", "lean/solutions/P1/n2.npz", "lean/solutions/P1/n4.npz"]
     results = fresh.results()
@@ -218,3 +229,19 @@ def test_all_scenes_and_the_gallery_enter_the_graph_when_asked_for(fresh):
     assert jobs["gallery"] == 1
     assert jobs["mesh"] < len(scenes)
     assert jobs["reference"] < len(scenes)
+
+
+def test_a_mesh_file_and_the_code_that_reads_it_are_inputs(fresh, tmp_path):
+    pytest.importorskip("meshio")
+    fresh.ask_for("gasket")
+    target = "results/gasket/solutions/P1/n1.npz"
+    fresh.spied_build(tmp_path / "spied", target)
+    inputs = inputs_of_scripts(fresh.build(target, "--dry-run", "--forceall", "--quiet", "host").text)
+    imports = modules_of(tmp_path / "spied")
+    assert "meshio" in imports["-c"]  # the process that reads the file, started by mesh.py
+    assert left_out(imports["-c"] | imports["mesh.py"], inputs["mesh.py"]) == []
+    assert "meshio" not in imports["solve.py"]
+    assert fresh.jobs(target) == {}
+    with open(fresh / "config/meshes/gasket.msh", "a") as stream:
+        stream.write("\n")
+    assert fresh.jobs(target) == {"mesh": 1, "solve": 1}

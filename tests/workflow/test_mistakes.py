@@ -117,6 +117,21 @@ def test_misspelt_target(fresh, target, said):
     assert not (fresh / "results").exists()
 
 
+@pytest.mark.parametrize("path", ["../../../secret.msh", "/etc/passwd", "link.msh", "../meshes"])
+def test_a_mesh_file_out_of_the_tree(fresh, path):
+    (fresh.folder.parent / "secret.msh").write_text("mine")
+    (fresh / "config/scenes/link.msh").symlink_to("../../../secret.msh")
+    fresh.edit(SCENE, "{kind: rectangle}", f"{{kind: mesh, file: {path}}}")
+    fresh.edit(SCENE, "{top: dirichlet, bottom: contact, left: neumann, right: neumann}", "{rim: dirichlet}")
+    with pytest.raises(SignoriniError) as caught:
+        load_scene(fresh / SCENE)
+    run = fresh.run()
+    assert run.code != 0
+    assert len(run.errors) == 1, run.text
+    assert run.errors[0].endswith(str(caught.value).partition("small.yaml: ")[2])
+    assert not (fresh / "results").exists()
+
+
 def test_misspelt_scene_on_the_command_line(fresh):
     run = fresh.run("--config", "scenes=[smal]")
     assert run.code != 0

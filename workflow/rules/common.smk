@@ -85,9 +85,9 @@ def library(script):
 
 @cache
 def imported(path):
-    """The files that a file's import statements name, and the rooms it names in a table of lazy imports."""
+    """The files that a file's import statements name, and the rooms it names in text, to be imported when used."""
     text = path.read_text(encoding="utf-8")
-    names = {match for match in re.findall(r'"(signorini\.[\w.]+)"', text)}
+    names = {match for match in re.findall(r'"(signorini\.[\w.]+)[":]', text)}
     for module, found in re.findall(r"^ *from (signorini[\w.]*|stage) import (\([^)]*\)|.*)$", text, re.M):
         names |= {module, *(f"{module}.{name}" for name in re.findall(r"\w+", found))}
     return {file for name in names for file in module_files(name)}

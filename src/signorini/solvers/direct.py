@@ -36,7 +36,7 @@ def solve_direct(problem, guess=None):
         active, iterations = result.active, result.iterations
     for _ in ("solve", "refine"):
         u += _displacement(problem, condensed, operator, active, problem.b - problem.A @ u)
-    u[problem.contact] = np.where(active, problem.lower, np.maximum(u[problem.contact], problem.lower))
+    u[problem.contact[active]] = problem.lower[active]
     return u, active, iterations, _accuracy(problem, condensed, operator, active)
 
 

@@ -65,8 +65,8 @@ class Problem:
         return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
 
     def apply(self, u):
-        """A @ u, without the matrix where the mesh is a grid and the matrix has not been built."""
-        if self.grid is not None and "A" not in self.__dict__:
+        """A @ u, without the matrix where a stencil is the whole of it (`grid`)."""
+        if self.grid is not None:
             return apply_stiffness(self.grid, self.element, u)
         return self.A @ u
 

@@ -36,17 +36,17 @@ def _apply_p1(grid, kx, ky, u):
 
 
 def _apply_cr(grid, kx, ky, u):
-    edges = grid.split_edges(u)
-    h, v, d = (np.zeros_like(part) for part in edges)
-    for weight, values, target in (
-        (2.0 * ky, edges[0], (h[:-1], h[1:])),
-        (2.0 * kx, edges[1], (v[:, :-1], v[:, 1:])),
+    edges_h, edges_v, edges_d = grid.split_edges(u)
+    h, v, d = np.zeros_like(edges_h), np.zeros_like(edges_v), np.zeros_like(edges_d)
+    for k, values, result in (
+        (ky, edges_h[:-1], h[:-1]),
+        (ky, edges_h[1:], h[1:]),
+        (kx, edges_v[:, :-1], v[:, :-1]),
+        (kx, edges_v[:, 1:], v[:, 1:]),
     ):
-        sides = (values[:-1], values[1:]) if target[0].base is h else (values[:, :-1], values[:, 1:])
-        for side, into in zip(sides, target, strict=True):
-            flux = weight * (side - edges[2])
-            into += flux
-            d -= flux
+        flux = 2.0 * k * (values - edges_d)
+        result += flux
+        d -= flux
     return grid.join_edges(h, v, d)
 
 

@@ -1,5 +1,6 @@
 """The scenes that ship: each is valid, solves on every level, and finds what it expects."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,18 @@ def test_an_exact_scene_finds_what_it_expects(name):
             rates.append({"element": element, "norm": norm, "slope": slope})
         table += rows
     assert check_expectations(asked.document["expect"], table, rates, name).startswith("as expected")
+
+
+README = re.findall(r"```yaml\n(.*?)```", (FOLDER.parent / "README.md").read_text(encoding="utf-8"), re.S)
+
+
+@pytest.mark.parametrize("text", [text for text in README if "levels" in text])
+def test_the_examples_of_the_readme_work_as_they_stand(tmp_path, text):
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    asked = signorini.load_scene(path)
+    for element in asked.elements:
+        assert signorini.solve(signorini.discretize(asked, element, asked.levels[0])).status == "solved"
 
 
 def test_what_a_scene_does_not_expect_is_refused():

@@ -12,7 +12,7 @@ help:
 	@echo 'make paper         build every table and figure of the paper, check them, and typeset results/paper/paper.pdf'
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format and style of Python and Snakemake files'
-	@echo 'make readme        build, then bring the table and the figures in README.md up to date'
+	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
 	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
@@ -31,6 +31,7 @@ lint: .venv/ready
 	.venv/bin/python .ci/lint_workflow.py
 
 readme: paper
+	$(run) snakemake --cores $(CORES) all_scenes
 	.venv/bin/python docs/update_readme.py
 
 requirements:

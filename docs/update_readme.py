@@ -21,7 +21,7 @@ from signorini.strict_yaml import load_yaml  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
-FIGURES = ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png")
+FIGURES = (*(RESULTS / f"figure_5_{k}.png" for k in (1, 2, 3)), ROOT / "results/gallery.png")
 CHOICES = {
     "diagonal": "the other diagonal",
     "load": "the load integrated exactly",
@@ -86,9 +86,9 @@ def main():
     check = parser.parse_args().check
     try:
         wanted = {README: filled(README, results()), CONFIG_README: filled(CONFIG_README, keys())}
-        wanted |= {PICTURES / name: (RESULTS / name).read_bytes() for name in FIGURES}
+        wanted |= {PICTURES / figure.name: figure.read_bytes() for figure in FIGURES}
     except FileNotFoundError as error:
-        sys.exit(f"error: {error.filename} is missing; run `make paper` first")
+        sys.exit(f"error: {error.filename} is missing; run `make readme`")
     stale = [path for path, content in wanted.items() if not path.is_file() or path.read_bytes() != content]
     names = ", ".join(str(path.relative_to(ROOT)) for path in stale)
     if check and stale:

@@ -124,5 +124,5 @@ if not LATEX and paper_output():
     onsuccess:
         print(
             "The PDF was not built: latexmk or pdflatex is missing. On Debian: apt-get install latexmk"
-            " texlive-latex-recommended texlive-latex-extra texlive-fonts-recommended lmodern"
+            " texlive-latex-recommended lmodern"
         )

@@ -1,8 +1,7 @@
 """What happens on the contact part: the trace of u, the contact force, and the critical points where u starts to bind.
 
-The part may have several components, and each may turn corners. A component is walked from its end with the smaller
-(x, y); one that closes on itself counterclockwise from its smallest (x, y). Components follow one another by the
-(x, y) where they start, and the arc length runs on from one to the next.
+The part may have several components, and each may turn corners; they are walked as `mesh.paths` says, and the arc
+length runs on from one to the next.
 """
 
 from dataclasses import dataclass

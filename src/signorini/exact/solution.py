@@ -1,11 +1,12 @@
 """What an exact solution is: u, its gradient and its load at any point; the flux follows."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from signorini.formula import Formula
 
 
-class ExactSolution:
+class ExactSolution(ABC):
     """A function u that solves a Signorini problem, equation (2.2) of the paper, with the load -Laplace u.
 
     Subclasses give `value`, `gradient` and `load`. All take coordinates in the user's unit of length, broadcast
@@ -28,17 +29,17 @@ class ExactSolution:
     singular_points = ()
     constant_load = None
 
+    @abstractmethod
     def value(self, x, y):
         """u at points."""
-        raise NotImplementedError
 
+    @abstractmethod
     def gradient(self, x, y):
         """Partial derivatives (du/dx, du/dy) at points, a pair, unit of u per length."""
-        raise NotImplementedError
 
+    @abstractmethod
     def load(self, x, y):
         """-Laplace u at points, unit of u per length squared."""
-        raise NotImplementedError
 
     def flux(self, x, y, nx, ny):
         """du/dnu at points where the outward unit normal is (nx, ny), unit of u per length."""

@@ -1,4 +1,8 @@
-"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering decides."""
+"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering decides.
+
+A piece is walked from its end with the smaller (x, y); one that closes on itself counterclockwise from its smallest
+(x, y). Pieces follow one another by the (x, y) where they start.
+"""
 
 from collections import defaultdict
 from dataclasses import dataclass

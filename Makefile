@@ -5,7 +5,7 @@ CORES ?= 2
 
 run := .venv/bin/python -m
 
-.PHONY: help paper test lint readme requirements clean distclean
+.PHONY: help paper test lint readme studies requirements clean distclean
 .NOTPARALLEL:
 
 help:
@@ -13,6 +13,7 @@ help:
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format and style of Python and Snakemake files'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
+	@echo 'make studies       run the three studies, up to an hour, and keep what they measured in docs/studies'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
 	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
@@ -33,6 +34,10 @@ lint: .venv/ready
 readme: paper
 	$(run) snakemake --cores $(CORES) all_scenes
 	.venv/bin/python docs/update_readme.py
+
+studies: .venv/ready
+	$(run) snakemake --cores $(CORES) sensitivity benchmark stability
+	.venv/bin/python docs/keep_studies.py
 
 requirements:
 	"$(PYTHON)" .ci/pin_requirements.py

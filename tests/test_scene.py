@@ -327,6 +327,12 @@ def test_any_other_name_is_refused(name):
     assert len(str(error.value)) < 250
 
 
+@pytest.mark.parametrize("name", ["meshes", "studies", "quick"])
+def test_a_name_that_results_uses_otherwise_is_refused(name):
+    with pytest.raises(SceneError, match="choose another name"):
+        check_name(name)
+
+
 @pytest.mark.parametrize("name", ["missing.yaml", "folder.yaml"])
 def test_a_file_that_cannot_be_read_is_named(tmp_path, name):
     (tmp_path / "folder.yaml").mkdir()

@@ -13,6 +13,7 @@ from signorini.statement import ProblemStatement
 from signorini.strict_yaml import load_yaml
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+_RESERVED = ("meshes", "studies", "quick")
 
 
 @dataclass(frozen=True)
@@ -104,6 +105,8 @@ def _statement(document):
 
 def check_name(name):
     """Refuse a scene name that could leave its folder or trouble a shell."""
+    if name in _RESERVED:
+        raise SceneError(f"scene name {name!r}: results/{name} is used for other things; choose another name")
     if not _NAME.fullmatch(name):
         raise SceneError(
             f"scene name {name[:80]!r} is not valid; use 1 to 64 letters, digits, '-' and '_', "

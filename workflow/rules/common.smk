@@ -230,5 +230,17 @@ def final_output():
     return [file for name in CONFIG["scenes"] for file in scene_output(name)] + paper_output()
 
 
+def appendix():
+    """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
+    fragments = [folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))]
+    return [part for path in fragments if path.is_file() for part in (path, *sorted(path.parent.glob("*.pdf")))]
+
+
+def digest(paths):
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+
+
 CONFIG = check_config()
 check_results()
+# Where the studies put what they measure; a quick run does not overwrite a full one.
+STUDIES = "results/quick" if CONFIG["quick"] else "results/studies"

@@ -114,9 +114,12 @@ rule paper:
         report("results/paper/paper.pdf", caption="../report/paper.rst", category="paper"),
     log:
         "results/paper/logs/paper.log",
+    params:
+        appendix=lambda wildcards: [str(path) for path in appendix()],
+        digest=lambda wildcards: digest(appendix()),
     shell:
         "python3 workflow/scripts/paper.py --source {input.source:q} --output {output:q}"
-        " {input.parts:q} {input.figures:q} 2>&1 | tee {log:q}"
+        " {input.parts:q} {input.figures:q} {params.appendix:q} 2>&1 | tee {log:q}"
 
 
 if not LATEX and paper_output():

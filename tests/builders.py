@@ -43,7 +43,9 @@ def labelled(mesh, labels=PAPER):
     names = {label: [] for label in labels}
     for side, label in zip(SIDES, labels, strict=True):
         names[label].append(np.flatnonzero(on_side[side].all(axis=0)))
-    return Triangulation(mesh.with_boundaries({label: np.concatenate(found) for label, found in names.items()}))
+    return Triangulation.from_skfem(
+        mesh.with_boundaries({label: np.concatenate(found) for label, found in names.items()})
+    )
 
 
 def delaunay(seed, inner=25, side=5, labels=PAPER):

@@ -8,11 +8,11 @@ import pytest
 from skfem import MeshTri
 
 from builders import PAPER, delaunay, grid, labelled
+from signorini.assembly import assemble_stiffness
 from signorini.contact_line import binding_pieces, contact_flux, contact_line, contact_rows
 from signorini.elements import element as find_element
 from signorini.mesh import Triangulation
 from signorini.mesh.paths import boundary_paths
-from signorini.problem import assemble_stiffness
 
 ELEMENTS = ("P1", "CR")
 HELD = ("contact", "contact", "dirichlet", "contact")  # one part with two corners that ends at a Dirichlet side
@@ -27,7 +27,7 @@ def ring(labels=("contact", "dirichlet")):
     facets = mesh.boundary_facets()
     inner = np.abs(mesh.p[:, mesh.facets[:, facets]].mean(axis=1) - 0.5).max(axis=0) < 0.4
     label = np.where(inner, *labels)
-    return Triangulation(mesh.with_boundaries({name: facets[label == name] for name in set(labels)}))
+    return Triangulation.from_skfem(mesh.with_boundaries({name: facets[label == name] for name in set(labels)}))
 
 
 def touching():
@@ -35,7 +35,7 @@ def touching():
     square = np.array([[0, 1, 1, 0], [0, 0, 1, 1]])
     p = np.hstack([square, square[:, 1:] + 1])
     mesh = MeshTri(p.astype(float), np.array([[0, 1, 2], [0, 2, 3], [2, 4, 5], [2, 5, 6]]).T)
-    return Triangulation(mesh.with_boundaries({"contact": mesh.boundary_facets()}))
+    return Triangulation.from_skfem(mesh.with_boundaries({"contact": mesh.boundary_facets()}))
 
 
 MESHES = {
@@ -83,7 +83,7 @@ def renumbered(mesh, seed=0):
     for label in ("dirichlet", "contact", "neumann"):
         wanted = {tuple(sorted(ends)) for ends in place[mesh.facets[:, mesh.boundary_facets(label)]].T.tolist()}
         names[label] = [k for k, ends in enumerate(other.facets.T.tolist()) if tuple(sorted(ends)) in wanted]
-    return Triangulation(other.with_boundaries({name: np.array(k, int) for name, k in names.items()}))
+    return Triangulation.from_skfem(other.with_boundaries({name: np.array(k, int) for name, k in names.items()}))
 
 
 def numbers(rows):
@@ -162,7 +162,7 @@ def test_numbering_of_the_mesh_does_not_matter(name, element):
 @pytest.mark.parametrize("scale", [1e-9, 1e9])
 def test_size_of_the_domain_does_not_matter(scale, element):
     big = labelled(MESHES["delaunay"].skfem)
-    small = Triangulation(MeshTri(big.p * scale, big.t).with_boundaries(big.skfem.boundaries))
+    small = Triangulation.from_skfem(MeshTri(big.p * scale, big.t).with_boundaries(big.skfem.boundaries))
     found = solution(big, element)
     for row, other in zip(contact_rows(big, found), contact_rows(small, found), strict=True):
         assert other["s"] == pytest.approx(scale * row["s"], rel=1e-12)

@@ -19,7 +19,7 @@ from signorini.solvers.direct import Condensed, dissection_order
 MESHES = {
     "grid": lambda labels: grid(5, 4, labels),
     "one cell": lambda labels: grid(1, labels=labels),
-    "rising triangulation": lambda labels: Triangulation(grid(4, 5, labels, "rising").skfem),
+    "rising triangulation": lambda labels: Triangulation.from_skfem(grid(4, 5, labels, "rising").skfem),
     "perturbed": lambda labels: perturbed(5, labels=labels),
     "delaunay 0": lambda labels: delaunay(0, labels=labels),
     "delaunay 1": lambda labels: delaunay(1, labels=labels),
@@ -220,7 +220,7 @@ def test_a_loose_part_is_refused():
     x = both.p[0, both.facets].mean(axis=0)
     boundary = both.boundary_facets()
     names = {"dirichlet": boundary[x[boundary] < 1.5], "neumann": boundary[x[boundary] > 1.5]}
-    problem = discretize_on(Triangulation(both.with_boundaries(names)), "P1", statement(f=1))
+    problem = discretize_on(Triangulation.from_skfem(both.with_boundaries(names)), "P1", statement(f=1))
     with pytest.raises(SolverError, match="a part of the body is loose"):
         solve(problem, "direct")
 

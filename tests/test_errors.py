@@ -17,7 +17,7 @@ COARSE = {
     "one cell": lambda: grid(1, size=(2.0, 1.0)),
     "delaunay": lambda: delaunay(0, inner=8, side=2),
     "perturbed": lambda: perturbed(2),
-    "grid as triangulation": lambda: Triangulation(grid(2, 3, diagonal="rising").skfem),
+    "grid as triangulation": lambda: Triangulation.from_skfem(grid(2, 3, diagonal="rising").skfem),
 }
 RULES = ("centroid", "midpoints", "vertices")
 
@@ -169,7 +169,7 @@ def test_norms_scale_with_the_unit_of_length(kind, size):
 def test_renumbering_and_kind_of_mesh_change_nothing(kind):
     """A grid and the same triangles through scikit-fem."""
     coarse, fine = grid(2, 3), grid(4, 6)
-    other = Triangulation(coarse.skfem).refined()
+    other = Triangulation.from_skfem(coarse.skfem).refined()
     u = np.sin(3 * fine.p[0] + fine.p[1] ** 2)
     w = np.sin(3 * other.p[0] + other.p[1] ** 2)
     v = random_function(coarse, kind.name)

@@ -46,7 +46,7 @@ def skewed(labels=SIDES):
     p[:, inner] += np.random.default_rng(3).uniform(-0.07, 0.07, (2, inner.size))
     t = mesh.t.copy()
     t[:2, ::2] = t[1::-1, ::2]
-    return Triangulation(MeshTri(p, t, sort_t=False).with_boundaries(dict(mesh.boundaries)))
+    return Triangulation.from_skfem(MeshTri(p, t, sort_t=False).with_boundaries(dict(mesh.boundaries)))
 
 
 def inside(count=200):

@@ -51,7 +51,9 @@ def renumbered(mesh, seed=0):
     t = np.argsort(old)[mesh.t[:, rng.permutation(mesh.number_of_triangles)]]
     shuffled = MeshTri(mesh.p[:, old], rng.permuted(t, axis=0), sort_t=False)
     boundary, bottom = shuffled.boundary_facets(), np.flatnonzero((shuffled.p[1, shuffled.facets] == 0.0).all(axis=0))
-    return Triangulation(shuffled.with_boundaries({"contact": bottom, "dirichlet": np.setdiff1d(boundary, bottom)}))
+    return Triangulation.from_skfem(
+        shuffled.with_boundaries({"contact": bottom, "dirichlet": np.setdiff1d(boundary, bottom)})
+    )
 
 
 class Polar:

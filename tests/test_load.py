@@ -52,7 +52,7 @@ def test_the_load_is_scikit_fems(mesh, kind, rule):
 @pytest.mark.parametrize("rule", RULES)
 def test_a_grid_gets_the_load_of_its_triangles(kind, rule, diagonal):
     mesh = grid(5, 3, diagonal=diagonal, size=(1.0, 2.0))
-    by_cells, by_triangles = (assemble_load(m, kind, F, G, rule) for m in (mesh, Triangulation(mesh.skfem)))
+    by_cells, by_triangles = (assemble_load(m, kind, F, G, rule) for m in (mesh, Triangulation.from_skfem(mesh.skfem)))
     np.testing.assert_allclose(by_cells, by_triangles, rtol=0, atol=1e-14)
 
 

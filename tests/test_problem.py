@@ -12,7 +12,7 @@ from signorini.problem import discretize, discretize_on
 
 MESHES = {
     "grid": lambda labels: grid(4, 3, labels),
-    "grid as triangulation": lambda labels: Triangulation(grid(4, 3, labels, "rising").skfem),
+    "grid as triangulation": lambda labels: Triangulation.from_skfem(grid(4, 3, labels, "rising").skfem),
     "delaunay": lambda labels: delaunay(0, labels=labels),
 }
 LABELS = {

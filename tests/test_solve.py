@@ -300,7 +300,7 @@ CHOICES = {
         "fourier",
         "no contact part: plain Poisson",
     ),
-    "triangulation": (lambda: Triangulation(grid(4).skfem), {}, "direct", "the mesh is not a uniform grid"),
+    "triangulation": (lambda: Triangulation.from_skfem(grid(4).skfem), {}, "direct", "the mesh is not a uniform grid"),
     "unlike sides": (
         lambda: grid(4, labels=("contact", "dirichlet", "dirichlet", "neumann")),
         {},

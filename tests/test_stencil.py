@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from builders import grid, nodes, statement
+from signorini.assembly import assemble_stiffness
 from signorini.elements import ELEMENTS
 from signorini.elements import element as find_element
-from signorini.problem import assemble_stiffness, discretize_on
+from signorini.problem import discretize_on
 from signorini.stencil import apply_stiffness, diagonal
 
 SHAPES = {"1x1": (1, 1), "1x5": (1, 5), "5x1": (5, 1), "2x2": (2, 2), "7x4": (7, 4), "4x7": (4, 7)}

@@ -22,8 +22,8 @@ MESHES = {
     "delaunay": lambda: delaunay(0),
     "perturbed": lambda: perturbed(4),
     "unsorted": unsorted,
-    "falling grid": lambda: Triangulation(grid(4, 3).skfem),
-    "rising grid": lambda: Triangulation(grid(3, 4, diagonal="rising").skfem),
+    "falling grid": lambda: Triangulation.from_skfem(grid(4, 3).skfem),
+    "rising grid": lambda: Triangulation.from_skfem(grid(3, 4, diagonal="rising").skfem),
 }
 
 
@@ -78,7 +78,7 @@ def test_a_wrongly_labelled_facet_is_named(case):
     inside = np.setdiff1d(np.arange(mesh.nfacets), mesh.boundary_facets())[0]
     names = change(dict(mesh.boundaries), inside)
     with pytest.raises(MeshError, match=r"facet \d+ at \(") as error:
-        Triangulation(MeshTri(mesh.p, mesh.t, sort_t=False).with_boundaries(names))
+        Triangulation.from_skfem(MeshTri(mesh.p, mesh.t, sort_t=False).with_boundaries(names))
     assert count in str(error.value)
     assert times in str(error.value)
 
@@ -131,7 +131,7 @@ def test_the_gradient_of_an_affine_function_is_constant(mesh):
 def test_a_grid_and_its_scikit_fem_mesh_are_one_triangulation():
     for diagonal in ("falling", "rising"):
         plain = grid(5, 3, diagonal=diagonal, labels=PAPER)
-        other = Triangulation(plain.skfem)
+        other = Triangulation.from_skfem(plain.skfem)
         for name in ("p", "t", "t2f", "facets", "number_of_vertices", "number_of_facets", "number_of_triangles"):
             np.testing.assert_array_equal(getattr(plain, name), getattr(other, name))
         for label in LABELS:

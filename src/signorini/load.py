@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from signorini.blocks import blocks
 from signorini.mesh import Grid
 from signorini.quadrature import interval_rule, triangle_rule
 
@@ -70,11 +71,12 @@ def _edge_targets(grid, edges, kind):
 
 
 def _on_triangles(mesh, element, f, points, shape):
-    corners = [mesh.p[:, v] for v in mesh.t]
     local = np.zeros((3, mesh.number_of_triangles))
-    for q in range(points.shape[1]):
-        x, y = sum(weight * corner for weight, corner in zip(points[:, q], corners, strict=True))
-        local += (shape[:, q, None] * mesh.area) * f(x, y)
+    for cells in blocks(mesh.number_of_triangles):
+        corners, area = [mesh.p[:, v[cells]] for v in mesh.t], mesh.areas(cells)
+        for q in range(points.shape[1]):
+            x, y = sum(weight * corner for weight, corner in zip(points[:, q], corners, strict=True))
+            local[:, cells] += (shape[:, q, None] * area) * f(x, y)
     return np.bincount(element.triangle_dofs(mesh).ravel(), local.ravel(), minlength=element.size(mesh))
 
 

@@ -50,6 +50,8 @@ class Problem:
     @cached_property
     def A(self):
         """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when first asked for."""
+        from signorini.assembly import assemble_stiffness
+
         return assemble_stiffness(self.mesh, find_element(self.element), self.coefficient)
 
     @cached_property
@@ -162,30 +164,3 @@ def _coefficient(mesh, formula):
             f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be positive"
         )
     return values
-
-
-def assemble_stiffness(mesh, element, coefficient=None):
-    """Stiffness matrix of the (broken) Dirichlet form by scikit-fem.
-
-    Parameters
-    ----------
-    mesh : Grid or Triangulation
-    element : Element
-    coefficient : ndarray, shape (nt,), optional
-        Diffusion coefficient of each triangle, 1 where not given.
-
-    Returns
-    -------
-    scipy.sparse.csr_matrix, shape (ndof, ndof)
-        Unit of the coefficient.
-    """
-    from skfem import Basis, BilinearForm
-    from skfem.helpers import dot, grad
-
-    @BilinearForm
-    def laplace(u, v, w):
-        return w.k * dot(grad(u), grad(v))
-
-    basis = Basis(mesh.skfem, element.skfem(), intorder=1)
-    k = np.ones((1, 1)) if coefficient is None else coefficient[:, None]
-    return laplace.assemble(basis, k=k).tocsr()

@@ -5,7 +5,7 @@ once, its root, and every level is a uniform refinement of it.
 """
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -168,11 +168,9 @@ class Refined:
         finer = parent.refined()
         if self.boundary is None:
             return finer
-        from signorini.mesh.labels import NamedMesh, label_boundary
-        from signorini.mesh.triangulation import Triangulation
+        from signorini.mesh.labels import NamedMesh, labelled_ends
 
-        labels = label_boundary(NamedMesh(finer.p, finer.t), _rules(self.boundary))
-        return Triangulation(finer.skfem.with_boundaries(labels), parent)
+        return replace(finer, ends=labelled_ends(NamedMesh(finer.p, finer.t), _rules(self.boundary)))
 
     def mesh_size(self, n):
         """The mesh width h of level n: half the root's for each doubling of n; unit of length."""
@@ -236,8 +234,8 @@ def write_domain(path, domain):
         write_npz(path, kind="domain", specification=json.dumps({"kind": "rectangle"} | asdict(domain)))
         return
     specification = {"kind": "refined", "coarsest": domain.coarsest, "width": domain.width, "boundary": domain.boundary}
-    labels = {label: domain.root.boundary_facets(label) for label in _LABELS}
-    write_npz(path, kind="domain", specification=json.dumps(specification), p=domain.root.p, t=domain.root.t, **labels)
+    root = domain.root
+    write_npz(path, kind="domain", specification=json.dumps(specification), p=root.p, t=root.t, **root.ends)
 
 
 def read_domain(path):
@@ -252,9 +250,7 @@ def read_domain(path):
     fields = json.loads(str(arrays["specification"]))
     if fields.pop("kind") == "rectangle":
         return Rectangle(**fields)
-    from skfem import MeshTri
-
     from signorini.mesh.triangulation import Triangulation
 
-    mesh = MeshTri(arrays["p"], arrays["t"]).with_boundaries({label: arrays[label] for label in _LABELS})
-    return Refined(Triangulation(mesh), **fields)
+    ends = {label: arrays[label] for label in _LABELS if label in arrays}
+    return Refined(Triangulation(arrays["p"], arrays["t"], ends), **fields)

@@ -205,6 +205,19 @@ class Grid:
                 values[k, kind] = self.window(rows, corner)
         return values.reshape(3, -1)
 
+    def edge_vectors(self, cells):
+        """The edges 01, 12 and 20 of a slice of the triangles as vectors, shape (3, 2, length), unit of length."""
+        corners = np.array(self.corners).transpose(1, 2, 0) * np.array(self.spacing)[:, None]
+        kind = np.arange(*cells.indices(self.number_of_triangles)) // (self.nx * self.ny)
+        return (np.roll(corners, -1, axis=0) - corners)[:, :, kind]
+
+    def vertex_parents(self):
+        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both of them."""
+        i, j = np.arange(self.nx + 1), np.arange(self.ny + 1)[:, None]
+        along = i % 2 * np.where(j % 2 == 1, -1 if self.diagonal == "falling" else 1, 1)
+        ends = [(j + up * (j % 2)) // 2 * (self.nx // 2 + 1) + (i + up * along) // 2 for up in (-1, 1)]
+        return np.stack([end.ravel() for end in ends]).astype(np.int32)
+
     def gradients(self, values):
         """Gradients of a piecewise affine function given by its values at the corners; see `Triangulation`.
 

@@ -128,9 +128,12 @@ def label_boundary(mesh, rules):
 
 def labelled(mesh, rules):
     """The `Triangulation` of a mesh whose boundary is labelled by rules; see `label_boundary`."""
-    from skfem import MeshTri
+    return Triangulation(mesh.p, mesh.t, labelled_ends(mesh, rules))
 
-    return Triangulation(MeshTri(mesh.p, mesh.t).with_boundaries(label_boundary(mesh, rules)))
+
+def labelled_ends(mesh, rules):
+    """As `label_boundary`, but for each label the end vertices of its facets, shape (2, k)."""
+    return {label: mesh.facets[:, facets] for label, facets in label_boundary(mesh, rules).items()}
 
 
 def _by_formula(mesh, formula):

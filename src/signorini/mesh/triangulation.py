@@ -1,105 +1,132 @@
-"""A triangulation of any polygonal domain: a scikit-fem mesh whose boundary facets are all labelled."""
+"""A triangulation of any polygonal domain, all of whose boundary is labelled, and its red refinements.
 
-from dataclasses import dataclass
+Vertices and facets are numbered as scikit-fem numbers them. Those of a refined mesh follow from its parent by
+arithmetic; only a mesh without parent searches for them.
+"""
+
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from signorini.exceptions import MeshError
+from signorini.mesh.check import unique_facets
 
 LABELS = ("dirichlet", "contact", "neumann")
 
-# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.children` promises; that of
-# the middle child depends on whether the mesh keeps the vertices of its triangles sorted by number.
-_REFINED_ORDER = ((0, 1, 2), (1, 0, 2), (1, 2, 0))
-_MIDDLE_ORDER = {True: (2, 1, 0), False: (1, 2, 0)}
 
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Triangulation:
-    """A scikit-fem mesh with the boundaries ``"dirichlet"``, ``"contact"`` and ``"neumann"``.
+    """Triangles whose boundary facets each carry one of the labels ``"dirichlet"``, ``"contact"``, ``"neumann"``.
 
     Parameters
     ----------
-    skfem : skfem.MeshTri
-        Its named boundaries must cover every boundary facet exactly once.
+    p : ndarray, shape (2, nv)
+        Vertices, unit of length.
+    t : ndarray of int, shape (3, nt)
+        Vertices of each triangle, in any order.
+    ends : dict of str to ndarray of int, shape (2, k)
+        End vertices of the facets that carry each label.
     parent : Triangulation, optional
         The mesh this one was refined from.
 
     Raises
     ------
     MeshError
-        If a boundary facet has no label, or two.
+        If, in a mesh without parent, a boundary facet has no label, or two; if it has not four times its parent's
+        triangles.
     """
 
-    skfem: object
+    p: np.ndarray
+    t: np.ndarray
+    ends: dict = field(default_factory=dict)
     parent: "Triangulation | None" = None
 
     def __post_init__(self):
-        times = np.zeros(self.skfem.nfacets, dtype=int)
+        if self.parent is None:
+            self._check_labels()
+        elif self.number_of_triangles != 4 * self.parent.number_of_triangles:
+            raise MeshError("mesh: no uniform refinement of its parent; make it by refined(), or drop the parent")
+
+    @classmethod
+    def from_skfem(cls, mesh):
+        """A scikit-fem mesh whose named boundaries are the labels."""
+        return cls(mesh.p, mesh.t, {name: mesh.facets[:, k] for name, k in (mesh.boundaries or {}).items()})
+
+    def _check_labels(self):
+        times = np.zeros(self.number_of_facets, dtype=int)
         for label in LABELS:
             times[self.boundary_facets(label)] += 1
-        expected = np.zeros_like(times)
-        expected[self.skfem.boundary_facets()] = 1
+        expected = np.bincount(self.t2f.ravel(), minlength=times.size) == 1
         if np.any(times != expected):
             wrong = np.flatnonzero(times != expected)
             k = wrong[0]
-            x, y = self.skfem.p[:, self.skfem.facets[:, k]].mean(axis=1)
+            x, y = self.p[:, self.facets[:, k]].mean(axis=1)
             raise MeshError(
                 f"mesh: {wrong.size} facets need exactly one boundary label each ({', '.join(LABELS)}); "
-                f"facet {k} at ({x:.6g}, {y:.6g}) has {times[k]}, expected {expected[k]}"
+                f"facet {k} at ({x:.6g}, {y:.6g}) has {times[k]}, expected {int(expected[k])}"
             )
 
-    @property
-    def p(self):
-        """Vertices, shape (2, nv)."""
-        return self.skfem.p
+    @cached_property
+    def _facets(self):
+        if self.parent is None:
+            return unique_facets(self.t, self.number_of_vertices)
+        return _refined_facets(self.parent, self.t)
 
     @property
-    def t(self):
-        """Vertices of each triangle, shape (3, nt)."""
-        return self.skfem.t
+    def facets(self):
+        """End vertices of each facet, the smaller number first, in lexicographic order, shape (2, nf)."""
+        return self._facets[0]
 
     @property
     def t2f(self):
         """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
-        return self.skfem.t2f
-
-    @property
-    def facets(self):
-        """End vertices of each facet, shape (2, nf)."""
-        return self.skfem.facets
+        return self._facets[1]
 
     @property
     def number_of_vertices(self):
         """Number of vertices."""
-        return self.skfem.nvertices
+        return self.p.shape[1]
 
     @property
     def number_of_facets(self):
         """Number of edges."""
-        return self.skfem.nfacets
+        if self.parent is not None:
+            return 2 * self.parent.number_of_facets + 3 * self.parent.number_of_triangles
+        return self.facets.shape[1]
 
     @property
     def number_of_triangles(self):
         """Number of triangles."""
-        return self.skfem.nelements
+        return self.t.shape[1]
 
     @cached_property
     def area(self):
         """Area of each triangle, shape (nt,), unit of length squared."""
-        a, b, c = (self.p[:, v] for v in self.t)
+        return self.areas(slice(None))
+
+    def areas(self, cells):
+        """Area of some triangles, shape (len(cells),), unit of length squared."""
+        a, b, c = (self.p[:, v[cells]] for v in self.t)
         ab, ac = b - a, c - a
         return 0.5 * np.abs(ab[0] * ac[1] - ab[1] * ac[0])
 
     def boundary_facets(self, label):
         """Facets that carry `label`, increasing."""
-        named = self.skfem.boundaries or {}
-        return np.sort(np.asarray(named.get(label, ()), dtype=np.int32))
+        keys = _keys(self.ends.get(label, np.zeros((2, 0), dtype=np.int32)), self.number_of_vertices)
+        return np.sort(np.searchsorted(_keys(self.facets, self.number_of_vertices), keys).astype(np.int32))
 
     def boundary_vertices(self, label):
         """Vertices on the closed facets that carry `label`, increasing, each once."""
-        return np.unique(self.facets[:, self.boundary_facets(label)])
+        return np.unique(self.ends[label]) if label in self.ends else np.zeros(0, dtype=np.int32)
+
+    @cached_property
+    def skfem(self):
+        """The same triangulation as a scikit-fem mesh, its boundaries named."""
+        from skfem import MeshTri
+
+        names = {label: self.boundary_facets(label) for label in self.ends}
+        return MeshTri(self.p, self.t, sort_t=False).with_boundaries(names)
 
     def same_as(self, other):
         """Whether `other` is the same triangulation, numbered alike."""
@@ -108,6 +135,12 @@ class Triangulation:
     def corner_values(self, u):
         """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
         return u[self.t]
+
+    def edge_vectors(self, cells):
+        """The edges 01, 12 and 20 of some triangles as vectors, shape (3, 2, len(cells)), unit of length."""
+        t = self.t[:, cells]
+        x, y = self.p[0][t], self.p[1][t]
+        return np.stack([np.roll(x, -1, axis=0) - x, np.roll(y, -1, axis=0) - y], axis=1)
 
     def gradients(self, values):
         """Gradients of a piecewise affine function given by its values at the corners.
@@ -128,27 +161,75 @@ class Triangulation:
         return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])
 
     def refined(self):
-        """Each triangle cut into four; the labels are inherited."""
-        return Triangulation(self.skfem.refined(), parent=self)
+        """Each triangle cut into four by the midpoints of its facets; the labels are inherited."""
+        middle = _middles(self)
+        start, end = self.facets
+        p = np.concatenate([self.p, 0.5 * (self.p[:, start] + self.p[:, end])], axis=1)
+        a, b, c = self.t
+        ab, bc, ac = middle
+        t = np.stack([np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))])
+        ends = {label: self._halves(self.boundary_facets(label)) for label in self.ends}
+        return Triangulation(p, t, ends, parent=self)
+
+    def _halves(self, facets):
+        """End vertices of both halves of some facets, in the refined mesh."""
+        start, end = self.facets[:, facets]
+        middle = (self.number_of_vertices + facets).astype(start.dtype)
+        return np.stack([np.concatenate([start, end]), np.concatenate([middle, middle])])
 
     def coarser(self):
         """The mesh this one was refined from, or None."""
         return self.parent
 
-    @property
-    def _child_orders(self):
-        return (*_REFINED_ORDER, _MIDDLE_ORDER[self.skfem.sort_t])
+    def vertex_parents(self):
+        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both of them."""
+        own = np.arange(self.parent.number_of_vertices, dtype=self.parent.facets.dtype)
+        return np.concatenate([np.stack([own, own]), self.parent.facets], axis=1)
 
     def children(self, values):
-        """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
-        family = values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2)
-        if values.shape[0] != 3:
-            return family
-        return np.stack([child[list(order)] for child, order in zip(family, self._child_orders, strict=True)])
+        """Values on the four children of every triangle of `coarser()`, a copy; see `Grid.children`."""
+        return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2).copy()
 
     def from_children(self, family):
         """Undo `children`."""
-        if family.shape[1] == 3:
-            inverse = [np.argsort(order) for order in self._child_orders]
-            family = np.stack([child[order] for child, order in zip(family, inverse, strict=True)])
         return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
+
+
+def _keys(ends, count):
+    """A number for each pair of vertices, in the lexicographic order of the pairs, the smaller first."""
+    return np.minimum(*ends).astype(np.int64) * count + np.maximum(*ends)
+
+
+def _middles(mesh):
+    """In the refined mesh, the vertex amid each facet of each triangle, shape (3, nt)."""
+    return (mesh.number_of_vertices + mesh.t2f).astype(mesh.t.dtype)
+
+
+def _refined_facets(parent, t):
+    """`facets` and `t2f` of the mesh refined from `parent`, whose triangles are `t`.
+
+    Listed first are the halves at the smaller and at the greater end of each of the parent's facets, then the facets
+    inside its triangles, cutting off their vertices 0, 1 and 2; sorting that list gives the numbers.
+    """
+    halves, count = parent.number_of_facets, parent.number_of_triangles
+    start, end = parent.facets
+    middle = parent.number_of_vertices + np.arange(halves, dtype=t.dtype)
+    ab, bc, ac = _middles(parent)
+    inner = np.stack([np.concatenate([ab, ab, ac]), np.concatenate([ac, bc, bc])])
+    ends = np.concatenate([[start, middle], [end, middle], np.sort(inner, axis=0)], axis=1).astype(t.dtype)
+    order = np.argsort(_keys(ends, parent.number_of_vertices + halves))
+    number = np.empty(order.size, dtype=np.int32)
+    number[order] = np.arange(order.size, dtype=np.int32)
+
+    def half(facet, vertex):
+        k = parent.t2f[facet]
+        return number[k + halves * (parent.t[vertex] != start[k])]
+
+    cut = number[2 * halves :].reshape(3, count)
+    of_children = (
+        (half(0, 0), cut[0], half(2, 0)),
+        (half(0, 1), half(1, 1), cut[1]),
+        (cut[2], half(1, 2), half(2, 2)),
+        (cut[2], cut[0], cut[1]),
+    )
+    return ends[:, order], np.concatenate([np.stack(child) for child in of_children], axis=1)

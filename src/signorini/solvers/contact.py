@@ -145,7 +145,7 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
 
 
 def _pivot(operator, load, weight, active, max_iterations, singular):
-    rule, solves = _Exchange(), 0
+    rule, solves = Exchange(), 0
     for iteration in range(1, max_iterations + 1):
         count(steps=1)
         if singular and not active.any():
@@ -163,7 +163,7 @@ def _pivot(operator, load, weight, active, max_iterations, singular):
     raise SolverError(f"no contact set in {max_iterations} iterations: {rule.fewest} dofs violated at best")
 
 
-class _Exchange:
+class Exchange:
     """Who changes sides: all violated dofs, the worse half, or the last; a stage without gain gives way."""
 
     def __init__(self):

@@ -13,9 +13,12 @@ from signorini.solvers.solution import Solution, kkt_residual, status_of
 METHODS = {
     "fourier": ("signorini.solvers.fourier", "solve_fourier"),
     "direct": ("signorini.solvers.direct", "solve_direct"),
+    "multigrid": ("signorini.solvers.multigrid", "solve_multigrid"),
 }
 
 
+_FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
+_MANY = 2_000_000  # dofs beyond which a factorisation takes several GB
 _TOUCHING = 2.0**-44  # of max |u|: above the round-off of every route, below any gap that the mesh resolves
 
 
@@ -25,7 +28,7 @@ def solve(problem, method="auto", guess=None):
     Parameters
     ----------
     problem : Problem
-    method : {"auto", "fourier", "direct"}
+    method : {"auto", "fourier", "direct", "multigrid"}
         "auto" takes the cheapest route that applies and says why in the solution.
     guess : ndarray of bool, shape (nc,), optional
         Contact dofs believed to bind, for instance from a coarser level.
@@ -56,6 +59,8 @@ def solve(problem, method="auto", guess=None):
     module, function = METHODS[method]
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
+    if method != "fourier":
+        _check_symmetric(scaled.A)
     u, active, iterations, accuracy = getattr(importlib.import_module(module), function)(scaled, guess)
     active = _touching(scaled, u, active)
     u[scaled.contact[active]] = scaled.lower[active]
@@ -85,15 +90,25 @@ def _choose(problem, method):
 
     if method not in ("auto", *METHODS):
         raise SolverError(f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}")
-    if method == "direct":
+    if method in ("direct", "multigrid"):
         return method, "asked for"
     why_not = obstruction(problem)
     if method == "fourier":
         if why_not:
             raise SolverError(f"solver.method: fourier does not apply, {why_not}; use auto or direct")
         return method, "asked for"
-    reason = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
-    return ("direct", why_not) if why_not else ("fourier", f"uniform grid, {reason}")
+    if not why_not:
+        kind = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
+        return "fourier", f"uniform grid, {kind}"
+    if problem.b.size <= _FEW:
+        return "direct", why_not
+    from signorini.solvers.hierarchy import is_nested
+
+    if is_nested(problem.mesh):
+        return "multigrid", f"{why_not}, but refined"
+    if problem.b.size <= _MANY:
+        return "direct", f"{why_not}, and not refined or of stretched cells"
+    return "multigrid", f"{why_not}, and too large for a factorisation"
 
 
 def _check_data(problem):
@@ -102,6 +117,14 @@ def _check_data(problem):
         if not np.all(np.isfinite(values)):
             k = int(np.flatnonzero(~np.isfinite(values))[0])
             raise SolverError(f"problem.{name}: entry {k} is {values[k]}; all data must be finite")
+
+
+def _check_symmetric(A):
+    """Hold x . A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not finite."""
+    x, y = np.random.default_rng(0).standard_normal((2, A.shape[0]))
+    one, other, size = x @ (A @ y), y @ (A @ x), np.abs(x) @ (np.abs(A.diagonal()) * np.abs(y))
+    if not abs(one - other) <= 1e-9 * size:
+        raise SolverError("problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form")
 
 
 def _check_solvable(problem):

@@ -1,0 +1,68 @@
+"""Stiffness matrices of P1 and CR in closed form, from the geometry of each triangle alone.
+
+For the facet ij of a triangle T, k_ij = int_T grad(phi_i) . grad(phi_j) = -cot(angle opposite) / 2. P1 couples i and j
+by k_ij, CR the two other facets of T by 4 k_ij; all rows of both matrices sum to zero.
+"""
+
+import numpy as np
+
+from signorini.blocks import blocks
+
+
+def assemble_stiffness(mesh, element, coefficient=None):
+    """Stiffness matrix of the (broken) Dirichlet form.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : Element
+    coefficient : ndarray, shape (nt,), optional
+        Diffusion coefficient of each triangle, 1 where not given.
+
+    Returns
+    -------
+    scipy.sparse.csr_array, shape (ndof, ndof)
+        Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not stored.
+    """
+    A = (_vertex_matrix if element.name == "P1" else _facet_matrix)(mesh, coefficient)
+    A.eliminate_zeros()
+    return A
+
+
+def facet_couplings(mesh, coefficient=None):
+    """k_ij of each facet (01, 12, 02) in each triangle, shape (3, nt), unit of the coefficient."""
+    k = np.empty((3, mesh.number_of_triangles))
+    for cells in blocks(mesh.number_of_triangles):
+        edges = mesh.edge_vectors(cells)
+        scale = 0.5 / np.abs(edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0])
+        for facet in range(3):
+            one, other = edges[facet - 2], edges[facet - 1]
+            k[facet, cells] = (one[0] * other[0] + one[1] * other[1]) * scale
+    return k if coefficient is None else k * coefficient
+
+
+def _vertex_matrix(mesh, coefficient):
+    """Facets in lexicographic order are the upper triangle of the matrix, row by row."""
+    from scipy.sparse import csr_array, diags_array
+
+    start, end = mesh.facets
+    count = mesh.number_of_vertices
+    coupling = np.bincount(mesh.t2f.ravel(), facet_couplings(mesh, coefficient).ravel(), minlength=start.size)
+    diagonal = -np.bincount(start, coupling, minlength=count) - np.bincount(end, coupling, minlength=count)
+    first = np.zeros(count + 1, dtype=np.int32)
+    np.cumsum(np.bincount(start, minlength=count), out=first[1:])
+    upper = csr_array((coupling, end.astype(np.int32), first), shape=(count, count))
+    return (upper + upper.T.tocsr() + diags_array(diagonal)).tocsr()
+
+
+def _facet_matrix(mesh, coefficient):
+    """Two facets share at most one triangle, so no two couplings are summed."""
+    from scipy.sparse import coo_array
+
+    t2f, count = mesh.t2f.astype(np.int32, copy=False), mesh.number_of_facets
+    ones, others = (np.concatenate([t2f[pair[side]] for pair in ((1, 2), (2, 0), (0, 1))]) for side in (0, 1))
+    coupling = 4.0 * facet_couplings(mesh, coefficient).ravel()
+    diagonal = -np.bincount(ones, coupling, minlength=count) - np.bincount(others, coupling, minlength=count)
+    own = np.arange(count, dtype=t2f.dtype)
+    rows, columns = np.concatenate([ones, others, own]), np.concatenate([others, ones, own])
+    return coo_array((np.concatenate([coupling, coupling, diagonal]), (rows, columns)), shape=(count, count)).tocsr()

@@ -1,0 +1,170 @@
+"""Levels for multigrid: the meshes that a mesh was refined from, and below them coarsening by the matrix alone.
+
+CR stands on conforming P1 on the same mesh, which it contains; P1 stands on P1 on the mesh it was refined from, whose
+matrix equals the Galerkin product. Below the coarsest mesh, where there is none, and where cells are stretched, levels
+follow the large entries of the matrix (Ruge & Stüben 1987, by PyAMG). After Brandt, Math. Comp. 31 (1977), and Braess &
+Verfürth, SIAM J. Numer. Anal. 27 (1990), for the nonconforming element.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.assembly import assemble_stiffness
+from signorini.blocks import blocks
+from signorini.elements import ELEMENTS
+from signorini.exceptions import MeshError
+
+_SMALL = 100  # unknowns of a level that is solved with a dense inverse
+_STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+HALF = 0.5 - 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """A stiffness matrix and the way from the next coarser level.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (n, n)
+    P : scipy.sparse.csr_array, shape (n, m), optional
+        Prolongation; None on the coarsest level.
+    """
+
+    A: object
+    P: object = None
+
+    @cached_property
+    def R(self):
+        """Restriction, the transpose of the prolongation, CSR."""
+        return self.P.T.tocsr()
+
+    @cached_property
+    def diagonal(self):
+        """Diagonal of A, shape (n,)."""
+        return self.A.diagonal()
+
+    def coarse_mask(self, mask):
+        """The unknowns of the coarser level that are at least half made of marked ones, both masks."""
+        return self.R @ mask.astype(float) >= HALF
+
+
+def build_hierarchy(problem):
+    """The levels of a problem, finest first.
+
+    Raises
+    ------
+    MeshError
+        If the problem's mesh is not the refinement of the mesh it names as coarser.
+    """
+    levels, mesh, A, k = [], problem.mesh, problem.A, problem.coefficient
+    if not is_nested(mesh):
+        return _algebraic(A)
+    if problem.element == "CR" and A.shape[0] > _SMALL:
+        levels.append(Level(A, _means(mesh.facets, mesh.number_of_vertices)))
+        A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
+    while A.shape[0] > _SMALL and (coarser := mesh.coarser()) is not None:
+        parents = mesh.vertex_parents()
+        _check_nested(mesh, coarser, parents)
+        levels.append(Level(A, _means(parents, coarser.number_of_vertices)))
+        k = None if k is None else mesh.children(k[None]).mean(axis=(0, 1))
+        mesh, A = coarser, assemble_stiffness(coarser, ELEMENTS["P1"], k)
+    return levels + _algebraic(A)
+
+
+def is_nested(mesh):
+    """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
+    return mesh.coarser() is not None and _stretch(mesh) <= _STRETCHED
+
+
+def _stretch(mesh):
+    """The largest ratio of a triangle's longest edge to the height on it, dimensionless."""
+    largest = 0.0
+    for cells in blocks(mesh.number_of_triangles):
+        edges = mesh.edge_vectors(cells)
+        doubled_area = np.abs(edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0])
+        largest = max(largest, float(((edges**2).sum(axis=1).max(axis=0) / doubled_area).max()))
+    return largest
+
+
+def _algebraic(A):
+    """Levels that follow the large entries of A alone."""
+    if A.shape[0] <= _SMALL:
+        return [Level(A)]
+    from pyamg import ruge_stuben_solver
+    from scipy.sparse import csr_array, csr_matrix
+
+    found = ruge_stuben_solver(csr_matrix(A), max_coarse=_SMALL).levels
+    return [Level(csr_array(level.A), csr_array(level.P)) for level in found[:-1]] + [Level(csr_array(found[-1].A))]
+
+
+def _means(pairs, count):
+    """The matrix of the means of pairs of `count` values; a pair of equals stands for the one value."""
+    from scipy.sparse import csr_array
+
+    first, second = pairs
+    two = first != second
+    start = np.zeros(first.size + 1, dtype=np.int32)
+    np.cumsum(1 + two, out=start[1:])
+    column = np.empty(start[-1], dtype=np.int32)
+    column[start[:-1]], column[start[1:] - 1] = first, second
+    weight = np.repeat(np.where(two, 0.5, 1.0), 1 + two)
+    return csr_array((weight, column, start), shape=(first.size, count))
+
+
+def _check_nested(mesh, coarser, parents):
+    p, coarse = mesh.p, coarser.p
+    off = np.abs(p - 0.5 * (coarse[:, parents[0]] + coarse[:, parents[1]])).max(axis=0)
+    k = int(off.argmax())
+    if off[k] > 1e-9 * np.ptp(coarse, axis=1).max():
+        raise MeshError(
+            f"mesh: vertex {k} at ({p[0, k]:.6g}, {p[1, k]:.6g}) is not where its coarser mesh puts it; "
+            "the levels do not nest: make the mesh by refined(), or drop the parent"
+        )
+
+
+class Cycle:
+    """A V(1,1) cycle with some unknowns held: a symmetric positive definite preconditioner of A on the others.
+
+    It sweeps forwards before and backwards after the coarse correction, by Gauss and Seidel.
+
+    Parameters
+    ----------
+    levels : list of Level
+    held : ndarray of bool, shape (n,)
+        Unknowns of the first level that do not move. A coarse unknown does not move if at least half of one that is
+        held depends on it.
+    """
+
+    def __init__(self, levels, held):
+        self.levels, self.held, self.free = levels, [], []
+        for level in levels:
+            self.held.append(np.flatnonzero(held))
+            self.free.append(np.flatnonzero(~held).astype(np.int32))
+            if level.P is not None:
+                held = level.coarse_mask(held)
+        rows = self.free[-1]
+        self.inverse = np.linalg.inv(levels[-1].A.toarray()[np.ix_(rows, rows)])
+
+    def __call__(self, r, k=0):
+        """An approximate solution of A z = r on the unknowns that move, zero on the others."""
+        level, x = self.levels[k], np.zeros_like(r)
+        if level.P is None:
+            x[self.free[k]] = self.inverse @ r[self.free[k]]
+            return x
+        self._sweep(k, x, r, 1)
+        rest = r - level.A @ x
+        rest[self.held[k]] = 0.0
+        correction = level.P @ self(level.R @ rest, k + 1)
+        correction[self.held[k]] = 0.0
+        x += correction
+        self._sweep(k, x, r, -1)
+        return x
+
+    def _sweep(self, k, x, r, step):
+        from pyamg.amg_core import gauss_seidel_indexed
+
+        A, rows = self.levels[k].A, self.free[k]
+        first, end = (0, rows.size) if step > 0 else (rows.size - 1, -1)
+        gauss_seidel_indexed(A.indptr, A.indices, A.data, x, r, rows, first, end, step)

@@ -1,0 +1,75 @@
+"""Closed-form stiffness matrices against those of scikit-fem."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from skfem import Basis, BilinearForm
+from skfem.helpers import dot, grad
+
+from builders import delaunay, grid, perturbed
+from signorini.assembly import assemble_stiffness, facet_couplings
+from signorini.elements import ELEMENTS
+from signorini.mesh import Triangulation
+
+MESHES = {
+    "falling grid": lambda: grid(4, 3, size=(2.0, 0.3)),
+    "rising grid": lambda: grid(3, 5, diagonal="rising", origin=(-1.0, 2.0)),
+    "grid as triangulation": lambda: Triangulation.from_skfem(grid(3, diagonal="rising").skfem),
+    "delaunay": lambda: delaunay(1),
+    "refined": lambda: delaunay(2).refined().refined(),
+    "perturbed": lambda: perturbed(6),
+}
+
+
+@pytest.fixture(params=MESHES)
+def mesh(request):
+    return MESHES[request.param]()
+
+
+@pytest.fixture(params=ELEMENTS)
+def element(request):
+    return ELEMENTS[request.param]
+
+
+@BilinearForm
+def form(u, v, w):
+    return w.k * dot(grad(u), grad(v))
+
+
+@pytest.mark.parametrize("constant", [True, False])
+def test_the_matrix_is_that_of_scikit_fem(mesh, element, constant):
+    k = np.ones(mesh.number_of_triangles) if constant else np.linspace(0.1, 9.0, mesh.number_of_triangles)
+    expected = form.assemble(Basis(mesh.skfem, element.skfem(), intorder=1), k=k[:, None]).toarray()
+    found = assemble_stiffness(mesh, element, None if constant else k)
+    assert found.format == "csr"
+    assert found.has_canonical_format
+    assert_allclose(found.toarray(), expected, rtol=0, atol=2e-14 * np.abs(expected).max())
+
+
+def test_it_is_symmetric_and_annihilates_constants(mesh, element):
+    A = assemble_stiffness(mesh, element)
+    assert abs(A - A.T).max() == 0
+    assert_allclose(A @ np.ones(A.shape[0]), 0, rtol=0, atol=1e-13 * A.diagonal().max())
+
+
+def test_couplings_across_right_angles_are_not_stored():
+    P1, CR = (assemble_stiffness(grid(8), ELEMENTS[name]) for name in ("P1", "CR"))
+    assert (np.diff(P1.indptr).max(), np.diff(CR.indptr).max()) == (5, 5)
+    assert CR.nnz == grid(8).number_of_facets + 4 * grid(8).number_of_triangles
+
+
+@pytest.mark.parametrize("origin", [(0.0, 0.0), (1e6, -1e6)])
+def test_a_grid_knows_its_cells_wherever_it_lies(origin):
+    assert np.array_equal(facet_couplings(grid(64, origin=origin)), facet_couplings(grid(64)))
+
+
+def test_the_coarse_matrix_is_the_galerkin_product():
+    from scipy.sparse import csr_array
+
+    for mesh in (grid(4, 6), grid(6, 4, diagonal="rising"), delaunay(3).refined()):
+        count, coarse = mesh.number_of_vertices, mesh.coarser()
+        where = np.tile(np.arange(count), 2), mesh.vertex_parents().ravel()
+        P = csr_array((np.full(2 * count, 0.5), where), shape=(count, coarse.number_of_vertices))
+        assert_allclose(P @ coarse.p.T, mesh.p.T, rtol=0, atol=1e-15)
+        product = P.T @ assemble_stiffness(mesh, ELEMENTS["P1"]) @ P
+        assert abs(product - assemble_stiffness(coarse, ELEMENTS["P1"])).max() < 1e-13

@@ -9,7 +9,7 @@ from signorini.exceptions import MeshError
 
 LABELS = ("dirichlet", "contact", "neumann")
 
-# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.children` promises; that of
+# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.vertex_children` promises; that of
 # the middle child depends on whether the mesh keeps the vertices of its triangles sorted by number.
 _REFINED_ORDER = ((0, 1, 2), (1, 0, 2), (1, 2, 0))
 _MIDDLE_ORDER = {True: (2, 1, 0), False: (1, 2, 0)}
@@ -141,14 +141,14 @@ class Triangulation:
 
     def children(self, values):
         """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
-        family = values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2)
-        if values.shape[0] != 3:
-            return family
-        return np.stack([child[list(order)] for child, order in zip(family, self._child_orders, strict=True)])
+        return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2)
 
-    def from_children(self, family):
-        """Undo `children`."""
-        if family.shape[1] == 3:
-            inverse = [np.argsort(order) for order in self._child_orders]
-            family = np.stack([child[order] for child, order in zip(family, inverse, strict=True)])
-        return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
+    def vertex_children(self, values):
+        """Values at the vertices of the four children of every triangle of `coarser()`; see `Grid.vertex_children`."""
+        family = zip(self.children(values), self._child_orders, strict=True)
+        return np.stack([child[list(order)] for child, order in family])
+
+    def from_vertex_children(self, family):
+        """Undo `vertex_children`."""
+        family = zip(family, self._child_orders, strict=True)
+        return np.stack([child[np.argsort(order)] for child, order in family], axis=1).reshape(3, -1)

@@ -5,7 +5,7 @@ import pytest
 from skfem import MeshTri
 
 from builders import grid
-from signorini.mesh.grid import SIDES
+from signorini.boundary import SIDES
 
 SHAPES = {"1x1": (1, 1), "1x4": (1, 4), "4x1": (4, 1), "2x2": (2, 2), "3x2": (3, 2), "2x3": (2, 3), "6x4": (6, 4)}
 NESTED = {"2x2": (2, 2), "2x4": (2, 4), "6x4": (6, 4), "8x2": (8, 2)}

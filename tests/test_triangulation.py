@@ -5,10 +5,10 @@ import pytest
 from skfem import MeshTri
 
 from builders import PAPER, delaunay, grid, labelled, perturbed
+from signorini.boundary import LABELS
 from signorini.errors.projection import prolong
 from signorini.exceptions import MeshError
 from signorini.mesh import Triangulation
-from signorini.mesh.triangulation import LABELS
 
 
 def unsorted():

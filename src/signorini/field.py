@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from signorini.boundary import LABELS
 from signorini.contact_line import binding_pieces, contact_line
 from signorini.elements import element as find_element
 from signorini.mesh.paths import boundary_paths
-from signorini.mesh.triangulation import LABELS
 
 
 def field_of(mesh, solution, most_triangles=20000):

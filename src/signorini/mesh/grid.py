@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-SIDES = ("bottom", "right", "top", "left")
+from signorini.boundary import SIDES
 
 # Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
 CORNERS = {

@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.boundary import LABELS, SIDES
 from signorini.exceptions import MeshError
 from signorini.mesh.check import unique_facets
-from signorini.mesh.grid import SIDES
-from signorini.mesh.triangulation import LABELS, Triangulation
+from signorini.mesh.triangulation import Triangulation
 
 _SHOWN = 5
 
@@ -130,7 +130,8 @@ def labelled(mesh, rules):
     """The `Triangulation` of a mesh whose boundary is labelled by rules; see `label_boundary`."""
     from skfem import MeshTri
 
-    return Triangulation(MeshTri(mesh.p, mesh.t).with_boundaries(label_boundary(mesh, rules)))
+    labels = label_boundary(mesh, rules)
+    return Triangulation(MeshTri(mesh.p, mesh.t).with_boundaries(labels).with_subdomains(mesh.regions))
 
 
 def _by_formula(mesh, formula):

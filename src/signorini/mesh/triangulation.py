@@ -5,12 +5,11 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.boundary import LABELS
 from signorini.exceptions import MeshError
 
-LABELS = ("dirichlet", "contact", "neumann")
-
-# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.vertex_children` promises; that of
-# the middle child depends on whether the mesh keeps the vertices of its triangles sorted by number.
+# scikit-fem's red refinement lists the vertices of each child in another order than `Grid.vertex_children` promises;
+# that of the middle child depends on whether the mesh keeps the vertices of its triangles sorted by number.
 _REFINED_ORDER = ((0, 1, 2), (1, 0, 2), (1, 2, 0))
 _MIDDLE_ORDER = {True: (2, 1, 0), False: (1, 2, 0)}
 
@@ -22,7 +21,8 @@ class Triangulation:
     Parameters
     ----------
     skfem : skfem.MeshTri
-        Its named boundaries must cover every boundary facet exactly once.
+        Its named boundaries must cover every boundary facet exactly once. Its subdomains, if any, are those of the
+        mesh file, and inherited by refinement.
     parent : Triangulation, optional
         The mesh this one was refined from.
 

@@ -1,8 +1,7 @@
 """What a scene expects of its own results."""
 
 from signorini.exceptions import SignoriniError
-
-_NORMS = ("l2", "h1_semi", "h1", "trace_l2", "multiplier_l2")
+from signorini.norms import RATED
 
 
 def check_expectations(expected, errors, rates, source):
@@ -34,7 +33,7 @@ def check_expectations(expected, errors, rates, source):
         and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
     ]
     bound = expected.get("errors_below", float("inf"))
-    sizes = [(float(row[norm]), row["element"], row["n"], norm) for row in errors for norm in _NORMS if row.get(norm)]
+    sizes = [(float(row[norm]), row["element"], row["n"], norm) for row in errors for norm in RATED if row.get(norm)]
     wrong += [
         f"{element} n = {n} {norm} error {size:.2e}, expected below {bound:g}"
         for size, element, n, norm in sizes

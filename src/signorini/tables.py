@@ -8,6 +8,7 @@ NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters 
     "l2": ("$L^2$ error", "L2", "Ltwo"),
     "h1": ("$H^1$ error", "H1", "Hone"),
     "h1_semi": ("broken $H^1$ seminorm", "H1 seminorm", "Semi"),
+    "energy": ("energy norm", "energy", "Energy"),
     "trace_l2": ("$L^2$ error of the trace", "trace L2", "Trace"),
     "multiplier_l2": ("$L^2$ error of the multiplier", "multiplier L2", "Multiplier"),
     "critical_points": ("critical points", "critical points", "Critical"),

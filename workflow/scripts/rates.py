@@ -2,16 +2,15 @@
 
 from stage import options, run
 
+from signorini.norms import RATED
 from signorini.rates import slopes
 from signorini.storage import read_csv, write_csv
-
-NORMS = ("l2", "h1_semi", "h1", "trace_l2", "multiplier_l2")
 
 
 @options("--errors", "--output")
 def main(arguments):
     """errors.csv to rates.csv."""
-    norms = [norm for norm in NORMS if norm in read_csv(arguments.errors)[0]]
+    norms = [norm for norm in RATED if norm in read_csv(arguments.errors)[0]]
     errors = read_csv(arguments.errors, numbers=("h", *norms))
     rows = []
     for element in dict.fromkeys(row["element"] for row in errors):

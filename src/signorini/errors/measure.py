@@ -1,9 +1,11 @@
 """From stored solutions to the rows of errors.csv."""
 
-CONTACT_NORMS = ("trace_l2", "multiplier_l2", "critical_points")
+from signorini.coefficient import coefficient_on
+from signorini.norms import CONTACT
+from signorini.statement import ProblemStatement, read_coefficient
 
 
-def against_reference(truth, domain, norms, quadrature):
+def against_reference(truth, domain, norms, quadrature, coefficient=1):
     """A function from a `StoredSolution` to its errors against another one.
 
     Parameters
@@ -13,6 +15,8 @@ def against_reference(truth, domain, norms, quadrature):
     norms : sequence of str
     quadrature : str
         See `ReferenceErrors`.
+    coefficient : object, optional
+        The entry ``data.coefficient`` of the scene: the weight of the energy norm.
 
     Returns
     -------
@@ -21,7 +25,9 @@ def against_reference(truth, domain, norms, quadrature):
     """
     from signorini.errors.reference import ReferenceErrors
 
-    errors = ReferenceErrors(domain.level(truth.n), truth.element, truth.u, norms, quadrature)
+    mesh = domain.level(truth.n)
+    weight = coefficient_on(mesh, read_coefficient(coefficient)) if "energy" in norms else None
+    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
     return lambda found: errors.of(domain.level(found.n), found.element, found.u)
 
 
@@ -29,15 +35,16 @@ def against_exact(statement, domain, norms):
     """The same against the exact truth of a scene's statement (a mapping), with the errors on the contact part."""
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
-    from signorini.statement import ProblemStatement
 
-    exact = ProblemStatement.from_mapping(statement).exact
-    errors = ExactErrors(exact, [norm for norm in norms if norm not in CONTACT_NORMS])
-    on_contact = [norm for norm in norms if norm in CONTACT_NORMS]
+    problem = ProblemStatement.from_mapping(statement)
+    exact, coefficient = problem.exact, problem.data.coefficient
+    errors = ExactErrors(exact, [norm for norm in norms if norm not in CONTACT])
+    on_contact = [norm for norm in norms if norm in CONTACT]
 
     def of(found):
         mesh = domain.level(found.n)
-        result = errors.of(mesh, found.element, found.u)
+        weight = coefficient_on(mesh, coefficient) if "energy" in norms else None
+        result = errors.of(mesh, found.element, found.u, weight)
         if on_contact:
             contact = contact_errors(mesh, found.element, found, exact)
             result |= {norm: contact[norm] for norm in on_contact}

@@ -1,6 +1,9 @@
 """From stored solutions to the rows of errors.csv."""
 
+import numpy as np
+
 from signorini.coefficient import coefficient_on
+from signorini.errors.floor import norm_floors
 from signorini.norms import CONTACT
 from signorini.statement import ProblemStatement, read_coefficient
 
@@ -21,14 +24,20 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     Returns
     -------
     callable
-        To a dict, norm -> error or None.
+        To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off alone.
     """
     from signorini.errors.reference import ReferenceErrors
 
-    mesh = domain.level(truth.n)
-    weight = coefficient_on(mesh, read_coefficient(coefficient)) if "energy" in norms else None
-    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
-    return lambda found: errors.of(domain.level(found.n), found.element, found.u)
+    mesh, coefficient, size = domain.level(truth.n), read_coefficient(coefficient), _largest(truth.u)
+    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, _weight(mesh, coefficient, norms))
+
+    def of(found):
+        mesh = domain.level(found.n)
+        accuracy, weight = max(found.accuracy, truth.accuracy), _weight(mesh, coefficient, norms)
+        floors = norm_floors(mesh, max(size, _largest(found.u)), accuracy, norms, weight)
+        return _with_floor(errors.of(mesh, found.element, found.u), floors)
+
+    return of
 
 
 def against_exact(statement, domain, norms):
@@ -43,14 +52,28 @@ def against_exact(statement, domain, norms):
 
     def of(found):
         mesh = domain.level(found.n)
-        weight = coefficient_on(mesh, coefficient) if "energy" in norms else None
+        weight = _weight(mesh, coefficient, norms)
         result = errors.of(mesh, found.element, found.u, weight)
         if on_contact:
             contact = contact_errors(mesh, found.element, found, exact)
             result |= {norm: contact[norm] for norm in on_contact}
-        return result
+        return _with_floor(result, norm_floors(mesh, _largest(found.u), found.accuracy, norms, weight))
 
     return of
+
+
+def _weight(mesh, coefficient, norms):
+    """The diffusion coefficient, where a norm depends on it."""
+    return coefficient_on(mesh, coefficient) if {"energy", "multiplier_l2"} & set(norms) else None
+
+
+def _largest(u):
+    return float(np.max(np.abs(u), initial=0.0))
+
+
+def _with_floor(errors, floors):
+    at_floor = [norm for norm, floor in floors.items() if errors[norm] is not None and errors[norm] <= floor]
+    return errors | {"floor": " ".join(at_floor)}
 
 
 def row(found, errors):

@@ -8,6 +8,7 @@ TYPES = {
     "number": "number",
     "boolean": "`true` or `false`",
     "object": "section",
+    None: "value",
 }
 DEFINED = {"#/$defs/formula": "number or formula", "#/$defs/pair": "two numbers"}
 
@@ -85,7 +86,9 @@ def _values(part, root):
 
 def _with_bounds(part):
     bounds = [f"{word} {part[key]}" for key, word in (("minimum", "from"), ("maximum", "to")) if key in part]
-    return " ".join([TYPES.get(part.get("type"), "value"), *bounds])
+    names = part.get("type")
+    kinds = [TYPES[name] for name in (names if isinstance(names, list) else [names])]
+    return " ".join([_either(kinds), *bounds])
 
 
 def _either(words):

@@ -4,9 +4,9 @@ import numpy as np
 from scipy.spatial import Delaunay
 from skfem import MeshTri
 
+from signorini.boundary import SIDES
 from signorini.elements import element as find_element
 from signorini.mesh import Grid, Triangulation
-from signorini.mesh.grid import SIDES
 from signorini.statement import ProblemStatement
 
 PAPER = ("contact", "neumann", "dirichlet", "neumann")  # what holds on the sides of Section 5, as in SIDES

@@ -20,6 +20,7 @@ COARSE = {
     "grid as triangulation": lambda: Triangulation.from_skfem(grid(2, 3, diagonal="rising").skfem),
 }
 RULES = ("centroid", "midpoints", "vertices")
+ALL = ("l2", "h1_semi", "h1", "energy")
 
 
 def finer(mesh):
@@ -68,7 +69,7 @@ def evaluate(mesh, name, u, x, y):
     return (values * (1 - 2 * inside[across])).sum(axis=0), -2 * np.einsum("iq,idq->dq", values, gradient[across])
 
 
-def brute_force(fine, fine_name, u, coarse, name, v):
+def brute_force(fine, fine_name, u, coarse, name, v, coefficient):
     """Norms of the difference by scikit-fem's quadrature on the fine mesh, exact for its squares."""
     kind = element(fine_name)
     basis = Basis(fine.skfem, kind.skfem(), intorder=2)
@@ -76,16 +77,41 @@ def brute_force(fine, fine_name, u, coarse, name, v):
     x, y = np.asarray(basis.global_coordinates())
     value, gradient = evaluate(coarse, name, v, x.ravel(), y.ravel())
     l2 = np.sum(basis.dx * (np.asarray(found) - value.reshape(x.shape)) ** 2)
-    semi = np.sum(basis.dx * (found.grad - gradient.reshape(2, *x.shape)) ** 2)
-    return {"l2": np.sqrt(l2), "h1_semi": np.sqrt(semi), "h1": np.sqrt(l2 + semi)}
+    squares = (found.grad - gradient.reshape(2, *x.shape)) ** 2
+    semi, energy = np.sum(basis.dx * squares), np.sum(coefficient[:, None] * basis.dx * squares)
+    return {name: np.sqrt(value) for name, value in zip(ALL, (l2, semi, l2 + semi, energy), strict=True)}
 
 
 @pytest.mark.parametrize("truth", ELEMENTS)
 def test_brute_force_agrees(fine, coarse, kind, truth):
+    """The coefficient jumps between the triangles of the reference's mesh, by seven orders of magnitude."""
     u, v = random_function(fine, truth, 1), random_function(coarse, kind.name, 2)
-    expected = brute_force(fine, truth, u, coarse, kind.name, v)
-    found = ReferenceErrors(fine, truth, u).of(coarse, kind.name, v)
+    coefficient = 10.0 ** np.random.default_rng(3).uniform(-4, 3, fine.number_of_triangles)
+    expected = brute_force(fine, truth, u, coarse, kind.name, v, coefficient)
+    found = ReferenceErrors(fine, truth, u, ALL, coefficient=coefficient).of(coarse, kind.name, v)
     assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_energy_norm_is_the_seminorm_where_the_coefficient_is_one(fine, coarse, kind):
+    u, v = random_function(fine, "P1", 1), random_function(coarse, kind.name, 2)
+    plain = ReferenceErrors(fine, "P1", u, ["h1_semi", "energy"]).of(coarse, kind.name, v)
+    assert plain["energy"] == plain["h1_semi"]
+    ones = np.ones(fine.number_of_triangles)
+    found = ReferenceErrors(fine, "P1", u, ["energy"], coefficient=ones).of(coarse, kind.name, v)
+    assert found["energy"] == pytest.approx(plain["h1_semi"], rel=1e-14)
+    assert found["h1_semi"] is found["l2"] is found["h1"] is None
+
+
+@pytest.mark.parametrize("power", [-1000, -2, 2, 1000])
+def test_powers_of_four_of_the_coefficient_pass_through_unrounded(coarse, kind, power):
+    fine = finer(coarse)
+    u, v = random_function(fine, "P1", 1), random_function(coarse, kind.name, 2)
+    coefficient = np.random.default_rng(3).uniform(1, 9, fine.number_of_triangles)
+    plain, scaled = (
+        ReferenceErrors(fine, "P1", u, ["energy"], coefficient=np.ldexp(coefficient, k)).of(coarse, kind.name, v)
+        for k in (0, power)
+    )
+    assert scaled["energy"] == np.ldexp(plain["energy"], power // 2)
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -234,7 +260,7 @@ def test_a_mesh_that_does_not_nest_is_refused(kind, case, rule):
         errors.of(mesh, kind.name, np.zeros(kind.size(mesh)))
 
 
-@pytest.mark.parametrize("options", [{"norms": ["H1"]}, {"norms": ["l2", "energy"]}, {"quadrature": "gauss"}])
+@pytest.mark.parametrize("options", [{"norms": ["H1"]}, {"norms": ["l2", "trace_l2"]}, {"quadrature": "gauss"}])
 def test_an_unknown_norm_or_rule_is_refused_with_the_known_ones(options):
     with pytest.raises(SignoriniError, match="known: "):
         ReferenceErrors(grid(2), "P1", np.zeros(9), **options).of(grid(1), "P1", np.zeros(4))

@@ -213,6 +213,8 @@ def test_energy_norm_weighs_the_gradient():
     found = errors.of(mesh, "P1", u)
     assert found["energy"] == found["h1_semi"]
     assert errors.of(mesh, "P1", u, np.full(32, 4.0))["energy"] == 2 * found["h1_semi"]
+    for power in (-1000, 1000):
+        assert errors.of(mesh, "P1", u, np.full(32, 2.0**power))["energy"] == np.ldexp(found["h1_semi"], power // 2)
     weights = np.where(np.arange(32) < 16, 1.0, 0.0)
     halves = [errors.of(mesh, "P1", u, w)["energy"] for w in (weights, 1 - weights)]
     assert np.hypot(*halves) == pytest.approx(found["h1_semi"], rel=1e-14)

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from builders import DATA, delaunay, grid, statement
+from signorini.boundary import SIDES
 from signorini.elements import ELEMENTS
-from signorini.mesh.grid import SIDES
 from signorini.problem import discretize_on
 from signorini.solvers import kkt_residual, solve
 from signorini.solvers.fourier import obstruction

@@ -5,7 +5,7 @@ import pytest
 from skfem import MeshTri
 
 from builders import grid
-from signorini.mesh.grid import SIDES
+from signorini.boundary import SIDES
 
 SHAPES = {"1x1": (1, 1), "1x4": (1, 4), "4x1": (4, 1), "2x2": (2, 2), "3x2": (3, 2), "2x3": (2, 3), "6x4": (6, 4)}
 NESTED = {"2x2": (2, 2), "2x4": (2, 4), "6x4": (6, 4), "8x2": (8, 2)}
@@ -108,7 +108,7 @@ def test_children_halve_their_parent(nested):
     parent = nested.coarser()
     corners = np.stack([parent.p[:, v] for v in parent.t])
     for axis in range(2):
-        family = nested.children(nested.p[axis][nested.t])
+        family = nested.vertex_children(nested.p[axis][nested.t])
         for k, i in np.ndindex(3, 3):
             np.testing.assert_allclose(family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), rtol=0, atol=1e-14)
         for i in range(3):
@@ -116,10 +116,9 @@ def test_children_halve_their_parent(nested):
             np.testing.assert_allclose(family[3, i], 0.5 * others, rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("rows", [1, 2, 3])
-def test_from_children_undoes_children(nested, rows):
-    values = np.random.default_rng(0).random((rows, nested.number_of_triangles))
-    np.testing.assert_array_equal(nested.from_children(nested.children(values)), values)
+def test_from_vertex_children_undoes_vertex_children(nested):
+    values = np.random.default_rng(0).random((3, nested.number_of_triangles))
+    np.testing.assert_array_equal(nested.from_vertex_children(nested.vertex_children(values)), values)
 
 
 def test_the_gradient_of_an_affine_function_is_constant(mesh):

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from signorini.boundary import LABELS
 from signorini.exceptions import FormulaError, MeshError
 from signorini.formula import Formula
 from signorini.mesh import labels
 from signorini.mesh.labels import NamedMesh, label_boundary, labelled, with_sides
 from signorini.mesh.patterns import alternating, criss_cross
-from signorini.mesh.triangulation import LABELS
 
 MESH = criss_cross(8, 8, (0, 0), (1, 1))
 RULES = {"bottom": "contact", "top": "dirichlet", "left": "neumann", "right": "neumann"}

@@ -204,7 +204,7 @@ BAD_INPUT = {
     "tabulator": ("a:\n\t- b\n", "line 2, column 1: found character '\\t'"),
     "duplicate key": (VALID + "levels: [2]\n", "line 8, column 1: duplicate key 'levels'"),
     "duplicate key below": (changed("{f:", "{f: 0, f:"), "duplicate key 'f'"),
-    "key a number": ("1: 2\n" + VALID, "key 1 is not a word"),
+    "key a number": ("1: 2\n" + VALID, "key 1 is not a word; put it in quotes if it is a name"),
     "key a list": ("? [a]\n: 2\n", "is not a word"),
     "alias": (
         VALID.replace("[P1, CR]", "&all [P1, CR]") + "norms: *all\n",

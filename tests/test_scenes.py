@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 import signorini
-from signorini.errors.measure import against_exact
+from signorini.errors.measure import against_exact, row
 from signorini.expect import check_expectations
-from signorini.rates import slopes
+from signorini.rates import rate_rows
 from signorini.results import StoredSolution
 
 FOLDER = Path(__file__).parents[1] / "config" / "scenes"
@@ -61,18 +61,12 @@ def test_an_exact_scene_finds_what_it_expects(name):
     assert "expect" in asked.document
     domain = asked.problem.triangulations
     errors = against_exact(asked.statement, domain, asked.document["norms"])
-    table, rates = [], []
+    table = []
     for element in asked.elements:
-        rows = []
         for n in asked.levels:
             problem = signorini.discretize(asked, element, n)
-            found = errors(stored(problem, signorini.solve(problem), n, domain.mesh_size(n)))
-            rows.append({"element": element, "n": n} | found)
-        h = [domain.mesh_size(n) for n in asked.levels]
-        for norm in asked.document["expect"]["slopes"]:
-            slope = slopes(h, [row[norm] for row in rows])[asked.document["slope"]]
-            rates.append({"element": element, "norm": norm, "slope": slope})
-        table += rows
+            table.append(row(stored(problem, signorini.solve(problem), n, domain.mesh_size(n)), errors))
+    rates = [found for found in rate_rows(table) if found["kind"] == asked.document["slope"]]
     assert check_expectations(asked.document["expect"], table, rates, name).startswith("as expected")
 
 

@@ -227,3 +227,26 @@ def test_tables_import_no_array_library():
     code = "import sys, signorini.tables; print({'numpy', 'pandas', 'matplotlib'} & sys.modules.keys())"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "src", capture_output=True, text=True, check=True)
     assert run.stdout == "set()\n"
+
+
+@pytest.mark.parametrize("make", [error_table, markdown_table])
+def test_a_slope_of_round_off_is_marked_and_explained(make):
+    errors = [{"element": name, "n": n, "l2": 1e-15} for name in ("P1", "CR") for n in (2, 4)]
+    rates = [
+        {"element": "P1", "norm": "l2", "kind": "mean", "slope": -0.5, "floor": "1"},
+        {"element": "CR", "norm": "l2", "kind": "mean", "slope": 1.5, "floor": "0"},
+    ]
+    table = make(errors, rates, norms=["l2"])
+    slope, note = (line for line in table.splitlines() if "slope" in line)
+    assert "-0.50*" in slope
+    assert "1.50*" not in slope
+    assert note.strip("\\ ").rstrip("}").endswith("* an error in this column is round-off, the slope means nothing")
+    clean = make(errors, [row | {"floor": "0"} for row in rates], norms=["l2"])
+    assert "*" not in clean
+    assert len(clean.splitlines()) < len(table.splitlines())
+
+
+def test_a_missing_slope_of_round_off_is_a_marked_dash():
+    rates = [{"element": "P1", "norm": "l2", "kind": "mean", "slope": "", "floor": "1"}]
+    table = markdown_table([{"element": "P1", "n": 2, "l2": 0}], rates, norms=["l2"], elements=["P1"])
+    assert "| slope | --* |" in table

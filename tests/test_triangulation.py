@@ -5,10 +5,10 @@ import pytest
 from skfem import MeshTri
 
 from builders import PAPER, delaunay, grid, labelled, perturbed
+from signorini.boundary import LABELS
 from signorini.errors.projection import prolong
 from signorini.exceptions import MeshError
 from signorini.mesh import Triangulation
-from signorini.mesh.triangulation import LABELS
 
 
 def unsorted():
@@ -101,11 +101,11 @@ def test_coarser_is_the_mesh_it_was_refined_from(mesh):
 
 @pytest.mark.parametrize("times", [1, 2])
 def test_children_halve_their_parent(mesh, times):
-    """As `Grid.children` documents them; true of an affine function if it is of x and y."""
+    """As `Grid.vertex_children` documents them; true of an affine function if it is of x and y."""
     for _ in range(times):
         parent, mesh = mesh, mesh.refined()
     for axis in range(2):
-        corners, family = parent.p[axis][parent.t], mesh.children(mesh.p[axis][mesh.t])
+        corners, family = parent.p[axis][parent.t], mesh.vertex_children(mesh.p[axis][mesh.t])
         for k, i in np.ndindex(3, 3):
             np.testing.assert_allclose(family[k, i], 0.5 * (corners[i] + corners[k]), rtol=0, atol=1e-14)
         for i in range(3):
@@ -116,10 +116,18 @@ def test_children_halve_their_parent(mesh, times):
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3])
-def test_from_children_undoes_children(mesh, rows):
+def test_children_keep_the_rows_of_values_on_triangles(mesh, rows):
+    """Whatever their number: the children of a triangle lie in it, so the mean of their centroids is its own."""
     fine = mesh.refined()
-    values = np.random.default_rng(0).random((rows, fine.number_of_triangles))
-    np.testing.assert_array_equal(fine.from_children(fine.children(values)), values)
+    centroids = np.resize(fine.p[:, fine.t].mean(axis=1), (rows, fine.number_of_triangles))
+    expected = np.resize(mesh.p[:, mesh.t].mean(axis=1), (rows, mesh.number_of_triangles))
+    np.testing.assert_allclose(fine.children(centroids).mean(axis=0), expected, rtol=0, atol=1e-14)
+
+
+def test_from_vertex_children_undoes_vertex_children(mesh):
+    fine = mesh.refined()
+    values = np.random.default_rng(0).random((3, fine.number_of_triangles))
+    np.testing.assert_array_equal(fine.from_vertex_children(fine.vertex_children(values)), values)
 
 
 def test_the_gradient_of_an_affine_function_is_constant(mesh):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from signorini.boundary import LABELS
 from signorini.elements import element as find_element
-from signorini.mesh.triangulation import LABELS
 from signorini.storage import replacing
 
 _FACET_CORNERS = np.array([[0, 1, 0], [1, 2, 2]])  # of a triangle's facets in the order 01, 12, 02

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from signorini.boundary import LABELS
 from signorini.contact_line import binding_pieces, contact_line
 from signorini.elements import element as find_element
 from signorini.mesh.paths import boundary_paths
-from signorini.mesh.triangulation import LABELS
 
 
 def field_of(mesh, solution, most_triangles=20000):
@@ -44,7 +44,7 @@ def field_of(mesh, solution, most_triangles=20000):
 
 def _coarsened(mesh, values, most_triangles):
     while mesh.number_of_triangles > most_triangles and (coarser := mesh.coarser()) is not None:
-        family = mesh.children(values)
+        family = mesh.vertex_children(values)
         values = np.stack([family[k, k] for k in range(3)])  # child k keeps vertex k of its parent
         mesh = coarser
     return mesh, values

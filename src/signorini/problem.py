@@ -5,8 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.coefficient import coefficient_on
 from signorini.elements import element as find_element
-from signorini.exceptions import FormulaError, SceneError
+from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.load import assemble_load
 from signorini.mesh.grid import Grid
@@ -110,7 +111,11 @@ def discretize(scene, element, n):
 
 
 def discretize_on(mesh, element, statement):
-    """Discretise a problem statement on a given triangulation; see `discretize`."""
+    """Discretise a problem statement on a given triangulation, whatever its own domain says; see `discretize`.
+
+    The mesh's labels hold; of the statement, the data and the load quadrature alone are used, and nothing is checked
+    against an exact truth.
+    """
     kind = find_element(element)
     data = statement.data
     _check_poles(mesh, data.f)
@@ -126,7 +131,7 @@ def discretize_on(mesh, element, statement):
         lower=lower,
         fixed=fixed,
         fixed_values=fixed_values,
-        coefficient=_coefficient(mesh, data.coefficient),
+        coefficient=coefficient_on(mesh, data.coefficient),
     )
 
 
@@ -150,17 +155,3 @@ def _check_corners(mesh, data, size):
             f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet parts meet: obstacle "
             f"{obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; lower the obstacle or raise dirichlet there"
         )
-
-
-def _coefficient(mesh, formula):
-    """The coefficient at the centroids, None where the formula is the number 1; it must be positive."""
-    if formula.constant == 1.0:
-        return None
-    x, y = mesh.p[:, mesh.t].mean(axis=1)
-    values = formula(x, y)
-    if not np.all(values > 0.0):
-        k = int(np.argmin(values))
-        raise FormulaError(
-            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be positive"
-        )
-    return values

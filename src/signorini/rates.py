@@ -3,6 +3,46 @@
 import math
 
 from signorini.exceptions import SignoriniError
+from signorini.norms import RATED
+
+KINDS = ("mean", "fit")
+
+
+def rate_rows(errors):
+    """The rows of rates.csv.
+
+    Parameters
+    ----------
+    errors : sequence of mapping
+        Rows of errors.csv, ``h`` and the norms as numbers or None, by increasing level.
+
+    Returns
+    -------
+    list of dict
+        For every element, norm that is known and kind of slope: ``element``, ``norm``, ``kind``, ``slope``, and
+        ``floor``, 1 where an error is round-off alone, so that the slope means nothing, else 0. There is no slope
+        (None) where such an error is exactly zero.
+
+    Raises
+    ------
+    SignoriniError
+        As `slopes`.
+    """
+    rows = []
+    for element in dict.fromkeys(row["element"] for row in errors):
+        found = [row for row in errors if row["element"] == element]
+        for norm in (norm for norm in RATED if found[0].get(norm) is not None):
+            floor = any(norm in row["floor"].split() for row in found)
+            values = [row[norm] for row in found]
+            taken = slopes([row["h"] for row in found], values) if all(values) or not floor else dict.fromkeys(KINDS)
+            series = {"element": element, "norm": norm}
+            rows += [series | {"kind": kind, "slope": slope, "floor": int(floor)} for kind, slope in taken.items()]
+    return rows
+
+
+def is_round_off(row):
+    """Whether the slope of a row of rates.csv means nothing."""
+    return str(row.get("floor", 0)) == "1"
 
 
 def slopes(h, errors):

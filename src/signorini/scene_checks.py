@@ -4,12 +4,12 @@ import math
 import sys
 from itertools import pairwise
 
+from signorini.boundary import LABELS, SIDES, by_formula
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
+from signorini.norms import CONTACT
 from signorini.schema import nearest, shown
 
-LABELS = ("dirichlet", "contact", "neumann")
-SIDES = ("bottom", "right", "top", "left")
 _NESTED = ("falling", "rising")
 
 
@@ -23,6 +23,8 @@ def check_document(document):
     """
     _DOMAIN_CHECKS[document["domain"]["kind"]](document["domain"])
     _check_boundary(document["boundary"], _part_names(document["domain"]))
+    if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
+        raise SceneError("data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y")
     _check_levels(document["levels"])
     _check_truth(document)
     _check_outputs(document)
@@ -73,11 +75,6 @@ def _part_names(domain):
         sides = domain.get("sides") or [f"side-{k}" for k in range(len(domain["corners"]))]
         return (*dict.fromkeys(sides), *(f"hole-{k}" for k in range(len(domain["holes"]))))
     return None
-
-
-def by_formula(boundary):
-    """Whether the section ``boundary`` maps labels to formulas, rather than names of parts to labels."""
-    return any(name in LABELS for name in boundary)
 
 
 def _check_boundary(boundary, names):
@@ -158,7 +155,7 @@ def _check_outputs(document):
     for output in ("rates", "table"):
         if output in outputs and len(document["levels"]) < 2:
             raise SceneError(f"outputs: {output} needs two levels for a slope; add a level, or drop {output}")
-    contact_norms = [norm for norm in norms if norm not in ("l2", "h1_semi", "h1")]
+    contact_norms = [norm for norm in norms if norm in CONTACT]
     if contact_norms and kind != "exact":
         raise SceneError(f"norms: {contact_norms[0]} needs an exact truth; drop it, or set truth.kind to exact")
     for norm in document.get("expect", {}).get("slopes", {}):

@@ -90,7 +90,7 @@ def _explain(error):
     remedy = {
         "enum": lambda: nearest(error.instance, [str(v) for v in error.validator_value]),
         "oneOf": lambda: f"expected {_alternatives(error.schema)}",
-        "type": lambda: f"expected {_TYPES.get(error.validator_value, error.validator_value)}",
+        "type": lambda: f"expected {_named_types(error.validator_value)}",
         "minimum": lambda: f"must be at least {error.validator_value}",
         "maximum": lambda: f"must be at most {error.validator_value}",
         "minItems": lambda: f"needs at least {_entries(error.validator_value)}",
@@ -108,6 +108,10 @@ _TYPES = {
     "array": "a list, [a, b, ...]",
     "object": "a section of 'key: value' lines",
 }
+
+
+def _named_types(names):
+    return " or ".join(_TYPES[name] for name in ([names] if isinstance(names, str) else names))
 
 
 def _entries(count):

@@ -3,21 +3,49 @@
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from signorini.exceptions import SceneError
 from signorini.formula import Formula
+
+
+@dataclass(frozen=True)
+class BySubdomain:
+    """A number for each subdomain of a mesh file, a group of its triangles; `coefficient.coefficient_on` places them.
+
+    Parameters
+    ----------
+    numbers : dict of str to float
+        Name of the subdomain -> number.
+    field : str
+        Name of the quantity, for error messages.
+
+    Raises
+    ------
+    SceneError
+        If a number is not positive.
+    """
+
+    numbers: dict
+    field: str
+
+    def __post_init__(self):
+        for name, number in self.numbers.items():
+            if not 0.0 < number < float("inf"):
+                raise SceneError(f"{self.field}.{name}: {number} is not valid; it must be positive and finite")
 
 
 @dataclass(frozen=True)
 class Data:
     """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle, diffusion coefficient.
 
-    Data derived from an exact solution are callables of the same interface; such a g also takes the normal.
+    The coefficient may be a `BySubdomain` instead. Data
+    derived from an exact solution are callables of the same interface; such a g also takes the normal.
     """
 
     f: Formula
     g: Formula
     dirichlet: Formula
     obstacle: Formula
-    coefficient: Formula = field(default_factory=lambda: Formula("1", "data.coefficient"))
+    coefficient: Formula | BySubdomain = field(default_factory=lambda: Formula("1", "data.coefficient"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,17 +103,27 @@ class ProblemStatement:
 
         Data that are not typed are derived from the exact truth, or zero.
         """
-        typed = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items()}
+        typed = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items() if name != "coefficient"}
+        if "coefficient" in mapping["data"]:
+            typed["coefficient"] = read_coefficient(mapping["data"]["coefficient"])
         exact = None
         if "truth" in mapping:
             from signorini.exact import Diffused, derived_data, read_exact
 
             exact = read_exact(mapping["truth"])
-            if "coefficient" in typed and typed["coefficient"].text != "1":
-                exact = Diffused(exact, typed["coefficient"])
+            coefficient = typed.get("coefficient", Formula("1"))
+            if not isinstance(coefficient, Formula):
+                raise SceneError("data.coefficient: an exact truth needs a formula in x and y, not a section")
+            if coefficient.text != "1":
+                exact = Diffused(exact, coefficient)
             data = replace(derived_data(exact), **typed)
         else:
             zero = {name: Formula("0", f"data.{name}") for name in ("g", "dirichlet", "obstacle")}
             data = Data(**zero | typed)
         parts = (mapping["domain"], mapping["boundary"], data, mapping["load_quadrature"])
         return cls(*parts, mapping.get("coarsest", 1), exact)
+
+
+def read_coefficient(value):
+    """The entry ``data.coefficient`` of a scene: a `Formula`, or `BySubdomain` where it is a section."""
+    return (BySubdomain if isinstance(value, dict) else Formula)(value, "data.coefficient")

@@ -4,10 +4,13 @@ Every number is rounded once, from its binary value straight to the printed digi
 is correctly rounded, exact ties to even).
 """
 
+from signorini.rates import is_round_off
+
 NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters only)
     "l2": ("$L^2$ error", "L2", "Ltwo"),
     "h1": ("$H^1$ error", "H1", "Hone"),
     "h1_semi": ("broken $H^1$ seminorm", "H1 seminorm", "Semi"),
+    "energy": ("energy norm", "energy", "Energy"),
     "trace_l2": ("$L^2$ error of the trace", "trace L2", "Trace"),
     "multiplier_l2": ("$L^2$ error of the multiplier", "multiplier L2", "Multiplier"),
     "critical_points": ("critical points", "critical points", "Critical"),
@@ -16,6 +19,8 @@ ELEMENTS = {"P1": "CF", "CR": "NCF"}
 
 SCIENTIFIC_BELOW, SCIENTIFIC_FROM = 1e-5, 1e4  # outside, eight decimals show too few digits or too many
 MISSING = "--"
+AT_FLOOR = "*"
+NOTE = "an error in this column is round-off, the slope means nothing"
 
 
 def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8):
@@ -26,7 +31,8 @@ def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="
     errors : sequence of mapping
         Rows with ``element``, ``n`` and one column per norm (dimensionless), as text or numbers.
     rates : sequence of mapping
-        Rows with ``element``, ``norm``, ``kind`` and ``slope``.
+        Rows with ``element``, ``norm``, ``kind``, ``slope``, and perhaps ``floor``: where it is 1 the slope is marked
+        and a note explains.
     norms, elements : sequence of str, optional
         The columns, and their order.
     kind : str, optional
@@ -76,6 +82,11 @@ def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="
         r"\midrule",
         _tex_row(slopes),
         r"\bottomrule",
+        *(
+            [_tex_row([rf"\multicolumn{{{1 + width * len(norms)}}}{{r}}{{{AT_FLOOR} {NOTE}}}"])]
+            if _marked(slopes)
+            else []
+        ),
         r"\end{tabular}",
     ]
     return "\n".join(lines) + "\n"
@@ -85,7 +96,8 @@ def markdown_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kin
     """Return the table of `error_table`, with the same arguments, as Markdown."""
     head = ["N", *(f"{NORMS[norm][1]} {ELEMENTS[element]}" for norm in norms for element in elements)]
     rows = _grid(errors, rates, norms, elements, kind, decimals)
-    return "".join(f"| {' | '.join(row)} |\n" for row in [head, ["---:"] * len(head), *rows])
+    table = "".join(f"| {' | '.join(row)} |\n" for row in [head, ["---:"] * len(head), *rows])
+    return table + (f"\n\\{AT_FLOOR} {NOTE}\n" if _marked(rows[-1]) else "")
 
 
 def _grid(errors, rates, norms, elements, kind, decimals):
@@ -97,12 +109,18 @@ def _grid(errors, rates, norms, elements, kind, decimals):
         raise ValueError("errors: an element and n occur twice")
     levels = sorted({n for _, n in rows})
     slopes = slopes_by_series(rates, kind)
+    marks = {(row["norm"], row["element"]): AT_FLOOR for row in rates if is_round_off(row)}
     columns = [[*map(str, levels), "slope"]]
     for norm in norms:
         for element in elements:
             cells = [rows.get((element, n), {}).get(norm) for n in levels]
-            columns.append([*_format_column(cells, decimals), fixed(slopes.get((norm, element)), 2)])
+            slope = fixed(slopes.get((norm, element)), 2) + marks.get((norm, element), "")
+            columns.append([*_format_column(cells, decimals), slope])
     return [list(row) for row in zip(*columns, strict=True)]
+
+
+def _marked(slopes):
+    return any(cell.endswith(AT_FLOOR) for cell in slopes)
 
 
 def _known(kind, names, table):

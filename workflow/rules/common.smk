@@ -16,6 +16,7 @@ sys.path.insert(0, str(SOURCE.resolve()))
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]))
 
 from signorini.exceptions import SignoriniError
+from signorini.norms import RATED
 from signorini.scene import check_name, load_scene
 from signorini.schema import nearest, validated
 from signorini.strict_yaml import load_yaml
@@ -168,8 +169,14 @@ def reference_file(wildcards):
 
 def truth_option(wildcards, input):
     if input.reference:
-        return f"--reference {quote(str(input.reference))}"
+        return f"--reference {quote(str(input.reference))} {coefficient_option(wildcards)}"
     return f"--statement {quote(statement(wildcards))}"
+
+
+def coefficient_option(wildcards):
+    """The diffusion coefficient, where a norm is weighted with it."""
+    document = scene(wildcards.scene).document
+    return f"--coefficient {quote(as_json(document['data']['coefficient']))}" * ("energy" in document["norms"])
 
 
 def expected(wildcards):
@@ -199,7 +206,7 @@ def scene_figures(asked):
     document = asked.document
     figures = ["solution"] + ["contact_line"] * has_contact(document["boundary"])
     if "rates" in document["outputs"]:
-        figures += [norm for norm in document["norms"] if norm != "critical_points"]
+        figures += [norm for norm in document["norms"] if norm in RATED]
     return figures
 
 

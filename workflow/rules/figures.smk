@@ -60,7 +60,7 @@ rule figure_solution:
     params:
         title=lambda wildcards: scene(wildcards.scene).document["title"],
     shell:
-        "python3 workflow/scripts/figure_field.py --field {input.field:q} --title {params.title:q}"
+        "python3 workflow/scripts/figure_field.py --field {input.field:q} --title={params.title:q}"
         " {output:q} 2>&1 | tee {log:q}"
 
 

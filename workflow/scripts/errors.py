@@ -13,6 +13,7 @@ from signorini.storage import write_csv
 @options(
     "--mesh",
     ("--reference", {"required": False}),
+    ("--coefficient", {"required": False, "default": "1"}),
     ("--statement", {"required": False}),
     "--norms",
     "--quadrature",
@@ -24,7 +25,8 @@ def main(arguments):
     domain = read_domain(arguments.mesh)
     norms = arguments.norms.split(",")
     if arguments.reference:
-        errors = measure.against_reference(read_solution(arguments.reference), domain, norms, arguments.quadrature)
+        reference, coefficient = read_solution(arguments.reference), json.loads(arguments.coefficient)
+        errors = measure.against_reference(reference, domain, norms, arguments.quadrature, coefficient)
     else:
         errors = measure.against_exact(json.loads(arguments.statement), domain, norms)
     rows = [measure.row(read_solution(path), errors) for path in arguments.solutions]

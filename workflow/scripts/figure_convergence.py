@@ -11,7 +11,7 @@ from signorini.storage import read_csv
 def main(arguments):
     """errors.csv and rates.csv to a figure in each of the formats that the outputs' endings name."""
     rates = [row for row in read_csv(arguments.rates, numbers=("slope",)) if row["norm"] == arguments.norm]
-    slopes = {row["element"]: row["slope"] for row in rates if row["kind"] == arguments.slope}
+    slopes = {row["element"]: row["slope"] for row in rates if (row["kind"], row["floor"]) == (arguments.slope, "0")}
     figure = draw_convergence(read_csv(arguments.errors), arguments.norm, slopes)
     for path in arguments.outputs:
         save_figure(figure, path)

@@ -10,9 +10,10 @@ named, by less than 3e-5 and 2e-6.
 import numpy as np
 
 from signorini.elements import element as find_element
-from signorini.errors.graded import graded, root, square, times_to_cut
+from signorini.errors.graded import graded, root, scaled_weight, square, times_to_cut
 from signorini.errors.reference import NORMS
 from signorini.exceptions import SceneError
+from signorini.norms import GRADIENT
 
 _ROOT = np.sqrt(15.0)
 # Radon (1948): the centroid and two orbits of three points (1 - 2s, s, s), exact for polynomials up to degree 5.
@@ -80,7 +81,8 @@ class ExactErrors:
         """
         values = find_element(element).vertex_values(mesh, u)
         asked = set(self.norms)
-        slopes = mesh.gradients(values) if asked & {"h1_semi", "h1", "energy"} else None
+        slopes = mesh.gradients(values) if asked & set(GRADIENT) else None
+        weight, exponent = (None, 0) if coefficient is None else scaled_weight(coefficient)
         l2, semi, energy = [], [], []
         for triangles, area, x, y, points, weights in self._parts(mesh):
             if asked & {"l2", "h1"}:
@@ -88,11 +90,12 @@ class ExactErrors:
             if slopes is not None:
                 for along, mean in zip(self.exact.gradient(x, y), slopes[:, triangles], strict=True):
                     semi.append(square(along - mean[:, None], area, weights))
-                    if coefficient is not None and "energy" in asked:
-                        energy.append(square(along - mean[:, None], area * coefficient[triangles], weights))
+                    if weight is not None and "energy" in asked:
+                        energy.append(square(along - mean[:, None], area * weight[triangles], weights))
         squares = {"l2": l2, "h1_semi": semi, "h1": l2 + semi, "energy": energy or semi}
         known = {norm for norm, needs in _NEEDS.items() if asked & needs}
-        return {norm: root(squares[norm]) if norm in known else None for norm in dict.fromkeys((*NORMS, *self.norms))}
+        found = {norm: root(squares[norm]) if norm in known else None for norm in dict.fromkeys((*NORMS, *self.norms))}
+        return found | {norm: float(np.ldexp(found[norm], exponent)) for norm in ("energy",) if norm in self.norms}
 
     def _parts(self, mesh):
         """Yield (triangles, their areas, x, y, barycentric points, weights), a chunk of quadrature points at once."""

@@ -86,6 +86,12 @@ def square(values, measure, weights):
     return float(measure @ ((values * values) @ weights)), exponent
 
 
+def scaled_weight(values):
+    """Positive weights of squares over a power of four near the largest, and half its exponent: that of the root."""
+    half = int(np.frexp(np.max(values))[1]) // 2
+    return np.ldexp(values, -2 * half), half
+
+
 def root(squares):
     """Square root of a sum of squares, each as `square` gives it."""
     squares = [pair for pair in squares if pair[0]]

@@ -1,7 +1,7 @@
 """Piecewise affine functions on nested meshes: from a mesh to the one it was refined from, and back.
 
 A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the vertices of each
-triangle. The children of a triangle are listed as `Grid.children` lists them.
+triangle. The children of a triangle are listed as `Grid.vertex_children` lists them.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ PROJECT = np.stack([np.linalg.solve(_MASS, P.T @ _MASS) / 4.0 for P in PROLONG])
 
 def prolong(mesh, values):
     """A function on ``mesh.coarser()`` as one on `mesh`: (3, nt / 4) to (3, nt)."""
-    return mesh.from_children(np.stack([P @ values for P in PROLONG]))
+    return mesh.from_vertex_children(np.stack([P @ values for P in PROLONG]))
 
 
 def project(mesh, values):
@@ -30,7 +30,7 @@ def project(mesh, values):
     rest : float
         Squared L2 norm of the difference.
     """
-    family = mesh.children(values)
+    family = mesh.vertex_children(values)
     projection = sum(P @ child for P, child in zip(PROJECT, family, strict=True))
     for P, child in zip(PROLONG, family, strict=True):
         child -= P @ projection

@@ -6,7 +6,8 @@ With Pi the L2 projection onto affine functions of a coarser mesh, Pythagoras gi
 
 and |u - Pi u|^2 adds up over the meshes between. So one pass from the reference's mesh down to the coarsest serves
 every solution of every level, at the cost of one evaluation; all terms are squares of differences, so nothing
-cancels. The same holds for gradients with the mean over the children.
+cancels. The same holds for gradients with the mean over the children; and where they are weighted with a coefficient
+that is constant on each triangle of the reference's mesh, with the weighted mean and the mean of the weights.
 """
 
 from functools import cached_property
@@ -14,8 +15,10 @@ from functools import cached_property
 import numpy as np
 
 from signorini.elements import element as find_element
+from signorini.errors.graded import scaled_weight
 from signorini.errors.projection import project, prolong, squared_l2
 from signorini.exceptions import MeshError, SceneError
+from signorini.norms import DOMAIN
 from signorini.quadrature import triangle_rule
 
 NORMS = ("l2", "h1_semi", "h1")
@@ -31,9 +34,11 @@ class ReferenceErrors:
     element : {"P1", "CR"}
     u : ndarray, shape (ndof,)
     norms : sequence of str
-        Of ``"l2"``, ``"h1_semi"``, ``"h1"``; what is not named is not computed.
+        Of ``"l2"``, ``"h1_semi"``, ``"h1"``, ``"energy"``; what is not named is not computed.
     quadrature : str
         ``"exact"`` or the name of a rule applied on the reference's mesh.
+    coefficient : ndarray, shape (nt,), optional
+        Diffusion coefficient of each of its triangles, 1 where not given: the weight of the energy norm.
 
     Raises
     ------
@@ -41,15 +46,16 @@ class ReferenceErrors:
         If a norm is unknown.
     """
 
-    def __init__(self, mesh, element, u, norms=NORMS, quadrature="exact"):
-        unknown = [norm for norm in norms if norm not in NORMS]
+    def __init__(self, mesh, element, u, norms=NORMS, quadrature="exact", coefficient=None):
+        unknown = [norm for norm in norms if norm not in DOMAIN]
         if unknown:
-            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(NORMS)}")
+            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
         self.mesh = mesh
         self.norms = tuple(norms)
         self.quadrature = quadrature
-        # A power of two near max |u| keeps squares from under- and overflowing, and changes no digit.
+        # Powers of two near max |u|, of four near max k: squares do not under- or overflow, and no digit changes.
         self.exponent = int(np.frexp(np.max(np.abs(u), initial=0.0))[1])
+        self.weight, self.weight_exponent = (None, 0) if coefficient is None else scaled_weight(coefficient)
         self.values = find_element(element).vertex_values(mesh, np.ldexp(u, -self.exponent))
 
     def of(self, mesh, element, u):
@@ -65,8 +71,9 @@ class ReferenceErrors:
         Returns
         -------
         dict
-            The value of each of `NORMS`, or None for those that nothing asked for needs (h1 needs the other two).
-            Units: l2 that of u times length, h1_semi that of u; h1 adds their squares as numbers.
+            The value of each of `NORMS`, or None for those that nothing asked for needs (h1 needs the other two), and
+            of ``"energy"`` if asked for. Units: l2 that of u times length, h1_semi that of u, energy that of u times
+            the root of the coefficient's; h1 adds the squares of l2 and h1_semi as numbers.
 
         Raises
         ------
@@ -81,8 +88,14 @@ class ReferenceErrors:
             squares["h1_semi"] = self._squared_semi(mesh, values)
         if "h1" in self.norms:
             squares["h1"] = squares["l2"] + squares["h1_semi"]
+        if "energy" in self.norms:
+            squares["energy"] = self._squared_energy(mesh, values)
+        exponents = {"energy": self.exponent + self.weight_exponent}
         return {
-            norm: float(np.ldexp(np.sqrt(squares[norm]), self.exponent)) if norm in squares else None for norm in NORMS
+            norm: float(np.ldexp(np.sqrt(squares[norm]), exponents.get(norm, self.exponent)))
+            if norm in squares
+            else None
+            for norm in dict.fromkeys((*NORMS, *self.norms))
         }
 
     def _squared_l2(self, mesh, values):
@@ -94,6 +107,12 @@ class ReferenceErrors:
     def _squared_semi(self, mesh, values):
         mean, rest = self._at(self._constant, mesh)
         return rest + _squared_constant(mesh.area, mean - mesh.gradients(values))
+
+    def _squared_energy(self, mesh, values):
+        if self.weight is None:
+            return self._squared_semi(mesh, values)
+        found, rest = self._at(self._weighted, mesh)
+        return rest + _squared_constant(mesh.area * found[2], found[:2] - mesh.gradients(values))
 
     def _at(self, pyramid, mesh):
         _, *found = pyramid[len(self._finer_than(mesh))]
@@ -122,6 +141,11 @@ class ReferenceErrors:
         """The same for the gradient."""
         return list(_descend(self.mesh, self.mesh.gradients(self.values), _mean))
 
+    @cached_property
+    def _weighted(self):
+        """The same for the gradient under the coefficient, which is the third row."""
+        return list(_descend(self.mesh, np.stack([*self.mesh.gradients(self.values), self.weight]), _weighted_mean))
+
     def _squared_by_rule(self, mesh, values):
         for finer in reversed(self._finer_than(mesh)):
             values = prolong(finer, values)
@@ -148,6 +172,16 @@ def _mean(mesh, values):
     mean = family.mean(axis=0)
     area = 0.25 * np.asarray(mesh.coarser().area)
     return mean, sum(_squared_constant(area, child - mean) for child in family)
+
+
+def _weighted_mean(mesh, values):
+    """The same for a field under a weight, its third row: the weighted mean, and the mean of the weights."""
+    family = mesh.children(values)
+    slopes, weights = family[:, :2], family[:, 2:]
+    mean = (weights * slopes).sum(axis=0) / weights.sum(axis=0)
+    area = 0.25 * np.asarray(mesh.coarser().area)
+    rest = sum(_squared_constant(area * w[0], child - mean) for child, w in zip(slopes, weights, strict=True))
+    return np.concatenate([mean, weights.mean(axis=0)]), rest
 
 
 def _squared_constant(area, values):

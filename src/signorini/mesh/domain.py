@@ -10,11 +10,10 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.boundary import LABELS, SIDES, by_formula
 from signorini.exceptions import MeshError
-from signorini.mesh.grid import CORNERS, SIDES, Grid
+from signorini.mesh.grid import CORNERS, Grid
 from signorini.storage import read_npz, write_npz
-
-_LABELS = ("dirichlet", "contact", "neumann")
 
 
 def make_domain(domain, boundary, coarsest):
@@ -45,7 +44,7 @@ def make_domain(domain, boundary, coarsest):
     if "perturb" in domain:
         mesh = _perturbed(mesh, domain["perturb"])
     width = _longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
-    return Refined(labelled(mesh, _rules(boundary)), coarsest, width, boundary if _by_formula(boundary) else None)
+    return Refined(labelled(mesh, _rules(boundary)), coarsest, width, boundary if by_formula(boundary) else None)
 
 
 @dataclass(frozen=True)
@@ -102,7 +101,7 @@ class Rectangle:
         counts, origin, size = self.counts(n), tuple(map(float, self.origin)), tuple(map(float, self.size))
         upper = [a + b for a, b in zip(origin, size, strict=True)]
         check_resolution(origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain")
-        plain = self.diagonal in CORNERS and not _by_formula(self.boundary)
+        plain = self.diagonal in CORNERS and not by_formula(self.boundary)
         if plain and self.grade is None and self.perturb is None:
             return Grid(*counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES))
         from signorini.mesh import patterns
@@ -202,13 +201,9 @@ def _longest_edge(mesh):
     return float(np.hypot(*(mesh.p[:, a] - mesh.p[:, b])).max())
 
 
-def _by_formula(boundary):
-    return any(name in _LABELS for name in boundary)
-
-
 def _rules(boundary):
     """Rules for `labels.label_boundary`; "rest" takes the facets that no formula takes."""
-    if not _by_formula(boundary):
+    if not by_formula(boundary):
         return boundary
     from signorini.formula import Formula
 
@@ -229,13 +224,15 @@ def _none_of(formulas):
 
 
 def write_domain(path, domain):
-    """Store a domain with its coarsest triangulation: vertices, triangles, labelled facets."""
+    """Store a domain with its coarsest triangulation: vertices, triangles, labelled facets, subdomains."""
     if isinstance(domain, Rectangle):
         write_npz(path, kind="domain", specification=json.dumps({"kind": "rectangle"} | asdict(domain)))
         return
     specification = {"kind": "refined", "coarsest": domain.coarsest, "width": domain.width, "boundary": domain.boundary}
     root = domain.root
-    write_npz(path, kind="domain", specification=json.dumps(specification), p=root.p, t=root.t, **root.ends)
+    specification["subdomains"] = list(root.subdomains)
+    members = {f"subdomain_{k}": found for k, found in enumerate(root.subdomains.values())}
+    write_npz(path, kind="domain", specification=json.dumps(specification), p=root.p, t=root.t, **root.ends, **members)
 
 
 def read_domain(path):
@@ -252,5 +249,6 @@ def read_domain(path):
         return Rectangle(**fields)
     from signorini.mesh.triangulation import Triangulation
 
-    ends = {label: arrays[label] for label in _LABELS if label in arrays}
-    return Refined(Triangulation(arrays["p"], arrays["t"], ends), **fields)
+    ends = {label: arrays[label] for label in LABELS if label in arrays}
+    subdomains = {name: arrays[f"subdomain_{k}"] for k, name in enumerate(fields.pop("subdomains"))}
+    return Refined(Triangulation(arrays["p"], arrays["t"], ends, subdomains), **fields)

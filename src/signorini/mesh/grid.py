@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-SIDES = ("bottom", "right", "top", "left")
+from signorini.boundary import SIDES
 
 # Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
 CORNERS = {
@@ -245,13 +245,12 @@ class Grid:
         Parameters
         ----------
         values : ndarray, shape (m, nt)
-            Values on this grid's triangles, for instance at their three vertices.
+            Numbers of this grid's triangles, m each.
 
         Returns
         -------
         ndarray, shape (4, m, nt / 4)
-            Children 0 to 2 hold the parent's vertices, child 3 is the middle one. Local vertex i of child k
-            is the midpoint of the parent's vertices i and k; of child 3, that of the two others than i.
+            Children 0 to 2 hold the parent's vertices, child 3 is the middle one.
         """
         cells = values.reshape(-1, 2, self.ny, self.nx)
         family = np.empty((4, values.shape[0], 2, self.ny // 2, self.nx // 2), dtype=values.dtype)
@@ -260,11 +259,27 @@ class Grid:
                 family[child, :, kind] = cells[:, 1 - kind if child == 3 else kind, j::2, i::2]
         return family.reshape(4, values.shape[0], -1)
 
-    def from_children(self, family):
-        """Undo `children`: values on this grid's triangles, shape (m, nt), from (4, m, nt / 4)."""
-        cells = np.empty((family.shape[1], 2, self.ny, self.nx), dtype=family.dtype)
-        family = family.reshape(4, family.shape[1], 2, self.ny // 2, self.nx // 2)
+    def vertex_children(self, values):
+        """Values at the vertices of the four children of every triangle of `coarser()`.
+
+        Parameters
+        ----------
+        values : ndarray, shape (3, nt)
+            Values at the vertices of this grid's triangles.
+
+        Returns
+        -------
+        ndarray, shape (4, 3, nt / 4)
+            Local vertex i of child k is the midpoint of the parent's vertices i and k; of child 3, that of the two
+            others than i.
+        """
+        return self.children(values)
+
+    def from_vertex_children(self, family):
+        """Undo `vertex_children`: values at the vertices of this grid's triangles, shape (3, nt)."""
+        cells = np.empty((3, 2, self.ny, self.nx), dtype=family.dtype)
+        family = family.reshape(4, 3, 2, self.ny // 2, self.nx // 2)
         for kind, corners in enumerate(self.corners):
             for child, (i, j) in enumerate((*corners, corners[0])):
                 cells[:, 1 - kind if child == 3 else kind, j::2, i::2] = family[child, :, kind]
-        return cells.reshape(cells.shape[0], -1)
+        return cells.reshape(3, -1)

@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.boundary import LABELS, SIDES
 from signorini.exceptions import MeshError
 from signorini.mesh.check import unique_facets
-from signorini.mesh.grid import SIDES
-from signorini.mesh.triangulation import LABELS, Triangulation
+from signorini.mesh.triangulation import Triangulation
 
 _SHOWN = 5
 
@@ -128,7 +128,7 @@ def label_boundary(mesh, rules):
 
 def labelled(mesh, rules):
     """The `Triangulation` of a mesh whose boundary is labelled by rules; see `label_boundary`."""
-    return Triangulation(mesh.p, mesh.t, labelled_ends(mesh, rules))
+    return Triangulation(mesh.p, mesh.t, labelled_ends(mesh, rules), mesh.regions)
 
 
 def labelled_ends(mesh, rules):

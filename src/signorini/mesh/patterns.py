@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from signorini.boundary import SIDES
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_resolution
-from signorini.mesh.grid import CORNERS, SIDES
+from signorini.mesh.grid import CORNERS
 from signorini.mesh.labels import NamedMesh
 
 

@@ -9,10 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.boundary import LABELS
 from signorini.exceptions import MeshError
 from signorini.mesh.check import unique_facets
-
-LABELS = ("dirichlet", "contact", "neumann")
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +26,8 @@ class Triangulation:
         Vertices of each triangle, in any order.
     ends : dict of str to ndarray of int, shape (2, k)
         End vertices of the facets that carry each label.
+    subdomains : dict of str to ndarray of int, optional
+        Triangles in each named part of the domain, inherited by refinement.
     parent : Triangulation, optional
         The mesh this one was refined from.
 
@@ -40,6 +41,7 @@ class Triangulation:
     p: np.ndarray
     t: np.ndarray
     ends: dict = field(default_factory=dict)
+    subdomains: dict = field(default_factory=dict)
     parent: "Triangulation | None" = None
 
     def __post_init__(self):
@@ -169,7 +171,9 @@ class Triangulation:
         ab, bc, ac = middle
         t = np.stack([np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))])
         ends = {label: self._halves(self.boundary_facets(label)) for label in self.ends}
-        return Triangulation(p, t, ends, parent=self)
+        count = self.number_of_triangles * np.arange(4)[:, None]
+        subdomains = {name: (cells + count).ravel() for name, cells in self.subdomains.items()}
+        return Triangulation(p, t, ends, subdomains, parent=self)
 
     def _halves(self, facets):
         """End vertices of both halves of some facets, in the refined mesh."""
@@ -190,8 +194,12 @@ class Triangulation:
         """Values on the four children of every triangle of `coarser()`, a copy; see `Grid.children`."""
         return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2).copy()
 
-    def from_children(self, family):
-        """Undo `children`."""
+    def vertex_children(self, values):
+        """Values at the vertices of the four children of every triangle of `coarser()`; see `Grid.vertex_children`."""
+        return self.children(values)
+
+    def from_vertex_children(self, family):
+        """Undo `vertex_children`."""
         return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
 
 

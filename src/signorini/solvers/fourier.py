@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from signorini.boundary import SIDES
 from signorini.solvers import transforms
 from signorini.solvers.contact import solve_contact
 from signorini.solvers.count import count
@@ -57,7 +58,7 @@ def obstruction(problem):
 
 
 def _strip(grid):
-    labels = dict(zip(("bottom", "right", "top", "left"), grid.labels, strict=True))
+    labels = dict(zip(SIDES, grid.labels, strict=True))
     hx, hy = grid.spacing
     for side in grid.sides("contact") or ("bottom", "left"):
         vertical = side in ("left", "right")

@@ -1,0 +1,6 @@
+"""The names of the norms in which errors are measured."""
+
+GRADIENT = ("h1_semi", "h1", "energy")  # that need the gradient
+DOMAIN = ("l2", *GRADIENT)
+CONTACT = ("trace_l2", "multiplier_l2", "critical_points")  # on the contact part
+RATED = (*DOMAIN, "trace_l2", "multiplier_l2")  # those whose slope is taken

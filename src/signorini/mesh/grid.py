@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 SIDES = ("bottom", "right", "top", "left")
+_CELLS_AT_ONCE = 2**15
 
 # Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
 CORNERS = {
@@ -85,8 +86,12 @@ class Grid:
     @property
     def p(self):
         """Vertices, shape (2, number_of_vertices), x running fastest."""
-        x, y = np.meshgrid(self.x, self.y)
-        return np.stack([x.ravel(), y.ravel()])
+        return np.stack(np.meshgrid(self.x, self.y)).reshape(2, -1)
+
+    def points(self, vertices):
+        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
+        j, i = np.divmod(vertices, self.nx + 1)
+        return np.stack([self.x[i], self.y[j]])
 
     @property
     def vertex_numbers(self):
@@ -115,32 +120,63 @@ class Grid:
         d = 3 * i[1:] - np.where(i[1:] == self.nx, 1, 0)
         return h, v, d
 
-    def split_edges(self, u):
+    def row_blocks(self):
+        """Ranges (first, last) of rows of cells, some `_CELLS_AT_ONCE` in each, so that temporaries stay in a cache."""
+        step = max(_CELLS_AT_ONCE // self.nx, 1)
+        return [(first, min(first + step, self.ny)) for first in range(0, self.ny, step)]
+
+    def _edge_rows(self, u):
+        """A vector over the facets as the edges leaving each vertex row, (ny, 3 nx + 1), and the top side's, (nx,)."""
+        width = 3 * self.nx + 1
+        return u[: self.ny * width].reshape(self.ny, width), u[self.ny * width :]
+
+    def split_edges(self, u, first=0, last=None):
         """Sort a vector over the facets by direction.
 
         Parameters
         ----------
         u : ndarray, shape (number_of_facets,)
+        first, last : int, optional
+            Rows of cells, from `first` to before `last`: their m rows of edges alone. By default all, m = ny.
 
         Returns
         -------
         horizontal, vertical, diagonal : ndarray
-            Shapes (ny + 1, nx), (ny, nx + 1) and (ny, nx).
+            Shapes (m + 1, nx), (m, nx + 1) and (m, nx).
         """
-        width = 3 * self.nx + 1
-        rows = u[: self.ny * width].reshape(self.ny, width)
+        rows, top = self._edge_rows(u)
         h, v, d = self._positions
-        return np.concatenate([rows[:, h], u[None, self.ny * width :]]), rows[:, v], rows[:, d]
+        part, above = rows[first:last], rows[last, h] if last is not None and last < self.ny else top
+        return np.concatenate([part[:, h], above[None]]), part[:, v], part[:, d]
 
     def join_edges(self, horizontal, vertical, diagonal):
         """Undo `split_edges`."""
-        width = 3 * self.nx + 1
-        u = np.empty(self.number_of_facets, dtype=horizontal.dtype)
-        rows = u[: self.ny * width].reshape(self.ny, width)
-        h, v, d = self._positions
-        rows[:, h], rows[:, v], rows[:, d] = horizontal[:-1], vertical, diagonal
-        u[self.ny * width :] = horizontal[-1]
+        u = np.zeros(self.number_of_facets, dtype=horizontal.dtype)
+        self.add_edges(u, 0, horizontal, vertical, diagonal)
         return u
+
+    def add_edges(self, u, first, horizontal, vertical, diagonal):
+        """Add values at the edges of some rows of cells, `first` and following, to a vector over the facets in place."""
+        rows, top = self._edge_rows(u)
+        h, v, d = self._positions
+        part, last = rows[first : first + len(diagonal)], first + len(diagonal)
+        for positions, values in ((h, horizontal[:-1]), (v, vertical), (d, diagonal)):
+            part[:, positions] += values
+        above, positions = (rows[last], h) if last < self.ny else (top, slice(None))
+        above[positions] += horizontal[-1]
+
+    def facet_ends(self, facets):
+        """End vertices of facets given by their numbers, the smaller number first, shape (2, len(facets))."""
+        i = np.concatenate([np.arange(self.nx + 1)[: len(k)] for k in self._positions])
+        table = np.empty((2, 3 * self.nx + 1), dtype=int)
+        table[:, np.concatenate(self._positions)] = i, np.repeat(np.arange(3), [len(k) for k in self._positions])
+        row, position = np.divmod(facets, 3 * self.nx + 1)
+        i, kind = table[:, position]
+        i, kind = np.where(row < self.ny, i, position), np.where(row < self.ny, kind, 0)
+        up = self.nx + 1
+        start, step = (1, up - 1) if self.diagonal == "falling" else (0, up + 1)
+        first = row * up + i + np.where(kind == 2, start, 0)
+        return np.stack([first, first + np.array([1, up, step])[kind]])
 
     @property
     def t2f(self):
@@ -162,13 +198,15 @@ class Grid:
 
     def side_vertices(self, side):
         """Vertex numbers along a side, by increasing coordinate."""
-        v = self.vertex_numbers
-        return {"bottom": v[0], "top": v[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+        along, up = np.arange(self.nx + 1, dtype=np.int32), np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1)
+        return {"bottom": along, "top": up[-1] + along, "left": up, "right": up + self.nx}[side]
 
     def side_facets(self, side):
         """Facet numbers along a side, by increasing coordinate."""
-        h, v, _ = self.split_edges(np.arange(self.number_of_facets, dtype=np.int32))
-        return {"bottom": h[0], "top": h[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+        h, v, _ = (positions.astype(np.int32) for positions in self._positions)
+        rows = np.arange(self.ny + 1, dtype=np.int32) * (3 * self.nx + 1)
+        top = rows[-1] + np.arange(self.nx, dtype=np.int32)
+        return {"bottom": h, "top": top, "left": rows[:-1] + v[0], "right": rows[:-1] + v[-1]}[side]
 
     def sides(self, label):
         """The sides that carry `label`, a tuple of names."""

@@ -70,6 +70,14 @@ class Triangulation:
         """End vertices of each facet, shape (2, nf)."""
         return self.skfem.facets
 
+    def points(self, vertices):
+        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
+        return self.p[:, vertices]
+
+    def facet_ends(self, facets):
+        """End vertices of facets given by their numbers, shape (2, len(facets))."""
+        return self.facets[:, facets]
+
     @property
     def number_of_vertices(self):
         """Number of vertices."""

@@ -57,7 +57,9 @@ def growth(route, element, sizes, repeats):
             flush=True,
         )
     if len(rows) > 2:
-        print(f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: exponent {slope(rows[0], rows[-1]):.3f}", flush=True)
+        print(
+            f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: exponent {slope(rows[0], rows[-1]):.3f}", flush=True
+        )
 
 
 def slope(first, last):

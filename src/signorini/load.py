@@ -97,17 +97,19 @@ def _on_triangles(mesh, element, f, points, shape):
 
 def _add_flux(b, mesh, element, g):
     """Add int g phi over the Neumann facets: of CR, all three functions of the triangle behind each facet."""
-    t2f, t, dofs = mesh.t2f, mesh.t, element.triangle_dofs(mesh)
-    on_boundary = np.zeros(mesh.number_of_facets, dtype=bool)
-    on_boundary[mesh.boundary_facets("neumann")] = True
+    facets = mesh.boundary_facets("neumann")
+    if not facets.size:
+        return
+    triangles = mesh.triangles_at("neumann")
+    t, dofs = triangles.t, element.triangle_dofs(triangles)
     needs_normal = getattr(g, "needs_normal", False)
     s, weights = interval_rule(_EDGE_DEGREE)
     for facet, (i, j) in enumerate(((0, 1), (1, 2), (0, 2))):
-        behind = np.flatnonzero(on_boundary[t2f[facet]])
-        start, end = mesh.p[:, t[i, behind]], mesh.p[:, t[j, behind]]
+        behind = np.flatnonzero(np.isin(triangles.t2f[facet], facets))
+        start, end = mesh.points(t[i, behind]), mesh.points(t[j, behind])
         along = end - start
         length = np.hypot(*along)
-        normal = _outward(along, mesh.p[:, t[3 - i - j, behind]] - start, length) if needs_normal else ()
+        normal = _outward(along, mesh.points(t[3 - i - j, behind]) - start, length) if needs_normal else ()
         for point, weight in zip(s, weights, strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[[i, j], 0] = 1.0 - point, point

@@ -6,6 +6,7 @@ means the same on ``grid.skfem`` (tests hold the two together).
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,13 @@ CORNERS = {
     "falling": (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0))),
     "rising": (((1, 0), (1, 1), (0, 0)), ((0, 1), (0, 0), (1, 1))),
 }
+
+
+class Triangles(NamedTuple):
+    """Vertices and facets, both (3, k), of k triangles of a mesh."""
+
+    t: np.ndarray
+    t2f: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -151,8 +159,10 @@ class Grid:
 
     def join_edges(self, horizontal, vertical, diagonal):
         """Undo `split_edges`."""
-        u = np.zeros(self.number_of_facets, dtype=horizontal.dtype)
-        self.add_edges(u, 0, horizontal, vertical, diagonal)
+        u = np.empty(self.number_of_facets, dtype=horizontal.dtype)
+        rows, top = self._edge_rows(u)
+        h, v, d = self._positions
+        rows[:, h], rows[:, v], rows[:, d], top[:] = horizontal[:-1], vertical, diagonal, horizontal[-1]
         return u
 
     def add_edges(self, u, first, horizontal, vertical, diagonal):
@@ -187,6 +197,27 @@ class Grid:
             first, second = (v[:, 1:], h[:-1]), (v[:, :-1], h[1:])
         pairs = zip((first[0], d, first[1]), (second[0], d, second[1]), strict=True)
         return np.stack([np.concatenate([a.ravel(), b.ravel()]) for a, b in pairs])
+
+    def triangles(self, numbers):
+        """Vertices and facets of triangles given by their numbers, as `Triangles`."""
+        kind, cell = np.divmod(numbers, self.nx * self.ny)
+        j, i = np.divmod(cell, self.nx)
+        offsets = np.array(self.corners, dtype=np.int32)[kind].transpose(1, 2, 0)
+        t = (j + offsets[:, 1]) * (self.nx + 1) + i + offsets[:, 0]
+        h, v, d = (positions.astype(np.int32) for positions in self._positions)
+        row = 3 * self.nx + 1
+        horizontal = (j + kind) * row + np.where(j + kind < self.ny, h[i], i)
+        vertical = j * row + v[i + (kind if self.diagonal == "falling" else 1 - kind)]
+        legs = (horizontal, vertical) if self.diagonal == "falling" else (vertical, horizontal)
+        return Triangles(t, np.stack([legs[0], j * row + d[i], legs[1]]))
+
+    def triangles_at(self, label):
+        """The triangles with a facet on the sides that carry `label`, each once, as `Triangles`."""
+        along, up = np.arange(self.nx, dtype=np.int32), np.arange(self.ny, dtype=np.int32) * self.nx
+        cells = self.nx * self.ny
+        left, right = (0, cells) if self.diagonal == "falling" else (cells, 0)
+        found = {"bottom": along, "right": right + up + self.nx - 1, "top": cells + up[-1] + along, "left": left + up}
+        return self.triangles(np.unique(np.concatenate([found[side] for side in self.sides(label)])))
 
     @property
     def facets(self):

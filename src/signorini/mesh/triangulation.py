@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.exceptions import MeshError
+from signorini.mesh.grid import Triangles
 
 LABELS = ("dirichlet", "contact", "neumann")
 
@@ -69,6 +70,11 @@ class Triangulation:
     def facets(self):
         """End vertices of each facet, shape (2, nf)."""
         return self.skfem.facets
+
+    def triangles_at(self, label):
+        """The triangles with a facet that carries `label`, each once, as `Triangles`."""
+        numbers = np.unique(self.skfem.f2t[0, self.boundary_facets(label)])
+        return Triangles(self.t[:, numbers], self.t2f[:, numbers])
 
     def points(self, vertices):
         """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""

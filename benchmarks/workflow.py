@@ -1,6 +1,6 @@
-"""How much a clean build of the paper scene costs, in runs with nothing to do; the PDF apart.
+"""How much a clean build costs, in runs with nothing to do: of the paper scene (the PDF apart), or of all scenes.
 
-    python benchmarks/workflow.py [--repeats 5]
+    python benchmarks/workflow.py [--repeats 5] [--all-scenes]
 
 Each repeat copies the project into a temporary folder, builds it there, and runs Snakemake again with nothing to do,
 so the two are compared under the same load of the machine. Medians and their range are printed.
@@ -33,8 +33,10 @@ def main():
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeats", type=int, default=5)
-    repeats = parser.parse_args().repeats
-    targets = [f"results/paper/{name}" for name in TARGETS]
+    parser.add_argument("--all-scenes", action="store_true")
+    arguments = parser.parse_args()
+    repeats = arguments.repeats
+    targets = ["all_scenes"] if arguments.all_scenes else [f"results/paper/{name}" for name in TARGETS]
     clean, nothing = [], []
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder, "project")

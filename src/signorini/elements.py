@@ -43,7 +43,7 @@ class _P1(Element):
 
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs))."""
-        return mesh.p[:, dofs]
+        return mesh.points(dofs)
 
     def skfem(self):
         """The element as scikit-fem knows it."""
@@ -71,8 +71,8 @@ class _CR(Element):
 
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs)): midpoints of facets."""
-        ends = mesh.facets[:, dofs]
-        return 0.5 * (mesh.p[:, ends[0]] + mesh.p[:, ends[1]])
+        start, end = mesh.facet_ends(dofs)
+        return 0.5 * (mesh.points(start) + mesh.points(end))
 
     def skfem(self):
         """The element as scikit-fem knows it."""

@@ -39,24 +39,41 @@ def assemble_load(mesh, element, f, g, rule):
 
 
 def _on_grid(grid, element, f, points, shape):
-    """Triangle by triangle of the cell, over all cells at once; sums run along slices."""
-    v = np.zeros((grid.ny + 1, grid.nx + 1))
-    edges = np.zeros((grid.ny + 1, grid.nx)), np.zeros((grid.ny, grid.nx + 1)), np.zeros((grid.ny, grid.nx))
+    """A block of rows of cells at a time."""
+    b = np.zeros(element.size(grid))
+    for first, last in grid.row_blocks():
+        parts = [_cell_loads(grid, f, points, shape, corners, first, last) for corners in grid.corners]
+        if element.name == "P1":
+            _add_at_vertices(b.reshape(grid.ny + 1, grid.nx + 1)[first : last + 1], grid, parts)
+        else:
+            _add_at_edges(b, grid, first, parts)
+    return b
+
+
+def _cell_loads(grid, f, points, shape, corners, first, last):
+    """What one of the two triangles of each cell adds to its three dofs, shape (3, last - first, nx)."""
     hx, hy = grid.spacing
-    for kind, corners in enumerate(grid.corners):
-        local = [np.zeros((grid.ny, grid.nx)) for _ in range(3)]
-        for q, (i, j) in enumerate(points.T @ np.array(corners)):
-            values = f(grid.x[None, :-1] + i * hx, grid.y[:-1, None] + j * hy)
-            for k in range(3):
-                local[k] += (grid.area * shape[k, q]) * values
-        targets = _vertex_targets(grid, v, corners) if element.name == "P1" else _edge_targets(grid, edges, kind)
-        for target, part in zip(targets, local, strict=True):
+    local = np.zeros((3, last - first, grid.nx))
+    for q, (i, j) in enumerate(points.T @ np.array(corners)):
+        values = f(grid.x[None, :-1] + i * hx, grid.y[first:last, None] + j * hy)
+        for k in range(3):
+            local[k] += (grid.area * shape[k, q]) * values
+    return local
+
+
+def _add_at_vertices(rows, grid, parts):
+    for corners, local in zip(grid.corners, parts, strict=True):
+        for (i, j), part in zip(corners, local, strict=True):
+            rows[j : j + len(part), i : i + grid.nx] += part
+
+
+def _add_at_edges(b, grid, first, parts):
+    count = parts[0].shape[1]
+    edges = np.zeros((count + 1, grid.nx)), np.zeros((count, grid.nx + 1)), np.zeros((count, grid.nx))
+    for kind, local in enumerate(parts):
+        for target, part in zip(_edge_targets(grid, edges, kind), local, strict=True):
             target += part
-    return v.ravel() if element.name == "P1" else grid.join_edges(*edges)
-
-
-def _vertex_targets(grid, v, corners):
-    return [grid.window(v, corner) for corner in corners]
+    grid.add_edges(b, first, *edges)
 
 
 def _edge_targets(grid, edges, kind):
@@ -82,17 +99,19 @@ def _on_triangles(mesh, element, f, points, shape):
 
 def _add_flux(b, mesh, element, g):
     """Add int g phi over the Neumann facets: of CR, all three functions of the triangle behind each facet."""
-    t2f, t, dofs = mesh.t2f, mesh.t, element.triangle_dofs(mesh)
-    on_boundary = np.zeros(mesh.number_of_facets, dtype=bool)
-    on_boundary[mesh.boundary_facets("neumann")] = True
+    facets = mesh.boundary_facets("neumann")
+    if not facets.size:
+        return
+    triangles = mesh.triangles_at("neumann")
+    t, dofs = triangles.t, element.triangle_dofs(triangles)
     needs_normal = getattr(g, "needs_normal", False)
     s, weights = interval_rule(_EDGE_DEGREE)
     for facet, (i, j) in enumerate(((0, 1), (1, 2), (0, 2))):
-        behind = np.flatnonzero(on_boundary[t2f[facet]])
-        start, end = mesh.p[:, t[i, behind]], mesh.p[:, t[j, behind]]
+        behind = np.flatnonzero(np.isin(triangles.t2f[facet], facets))
+        start, end = mesh.points(t[i, behind]), mesh.points(t[j, behind])
         along = end - start
         length = np.hypot(*along)
-        normal = _outward(along, mesh.p[:, t[3 - i - j, behind]] - start, length) if needs_normal else ()
+        normal = _outward(along, mesh.points(t[3 - i - j, behind]) - start, length) if needs_normal else ()
         for point, weight in zip(s, weights, strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[[i, j], 0] = 1.0 - point, point

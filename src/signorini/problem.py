@@ -146,7 +146,7 @@ def _check_poles(mesh, f):
 def _check_corners(mesh, data, size):
     """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K is empty."""
     shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
-    x, y = mesh.p[:, shared]
+    x, y = mesh.points(shared)
     obstacle, dirichlet = (formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet))
     above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
     if above.any():

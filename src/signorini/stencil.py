@@ -12,7 +12,10 @@ import numpy as np
 def apply_stiffness(grid, element, u):
     """A @ u for element ``"P1"`` or ``"CR"`` on a `Grid`; u and the result have shape (ndof,)."""
     hx, hy = grid.spacing
-    return _STENCILS[element](grid, hy / hx, hx / hy, u)
+    result = np.zeros_like(u)
+    for first, last in grid.row_blocks():
+        _STENCILS[element](grid, hy / hx, hx / hy, u, result, first, last)
+    return result
 
 
 def diagonal(grid, element):
@@ -21,9 +24,9 @@ def diagonal(grid, element):
     return _DIAGONALS[element](grid, hy / hx, hx / hy)
 
 
-def _apply_p1(grid, kx, ky, u):
-    u = u.reshape(grid.ny + 1, grid.nx + 1)
-    result = np.zeros_like(u)
+def _add_p1(grid, kx, ky, u, result, first, last):
+    shape, rows = (grid.ny + 1, grid.nx + 1), slice(first, last + 1)
+    u, result = u.reshape(shape)[rows], result.reshape(shape)[rows]
     along_x = kx * np.diff(u, axis=1)
     along_x[[0, -1]] *= 0.5
     result[:, 1:] += along_x
@@ -32,11 +35,10 @@ def _apply_p1(grid, kx, ky, u):
     along_y[:, [0, -1]] *= 0.5
     result[1:] += along_y
     result[:-1] -= along_y
-    return result.ravel()
 
 
-def _apply_cr(grid, kx, ky, u):
-    edges_h, edges_v, edges_d = grid.split_edges(u)
+def _add_cr(grid, kx, ky, u, total, first, last):
+    edges_h, edges_v, edges_d = grid.split_edges(u, first, last)
     h, v, d = np.zeros_like(edges_h), np.zeros_like(edges_v), np.zeros_like(edges_d)
     for k, values, result in (
         (ky, edges_h[:-1], h[:-1]),
@@ -47,17 +49,21 @@ def _apply_cr(grid, kx, ky, u):
         flux = 2.0 * k * (values - edges_d)
         result += flux
         d -= flux
-    return grid.join_edges(h, v, d)
+    grid.add_edges(total, first, h, v, d)
 
 
 def _diagonal_p1(grid, kx, ky):
-    return 2.0 * (kx + ky) * np.outer(_halved_ends(grid.ny + 1), _halved_ends(grid.nx + 1)).ravel()
+    return np.outer(2.0 * (kx + ky) * _halved_ends(grid.ny + 1), _halved_ends(grid.nx + 1)).ravel()
 
 
 def _diagonal_cr(grid, kx, ky):
-    h = np.repeat(4.0 * ky * _halved_ends(grid.ny + 1)[:, None], grid.nx, axis=1)
-    v = np.repeat(4.0 * kx * _halved_ends(grid.nx + 1)[None, :], grid.ny, axis=0)
-    return grid.join_edges(h, v, np.full((grid.ny, grid.nx), 4.0 * (kx + ky)))
+    result = np.zeros(grid.number_of_facets)
+    for first, last in grid.row_blocks():
+        h = np.full((last - first + 1, grid.nx), 4.0 * ky)
+        h[[0, -1]] *= 0.5
+        v = np.tile(4.0 * kx * _halved_ends(grid.nx + 1), (last - first, 1))
+        grid.add_edges(result, first, h, v, np.full((last - first, grid.nx), 4.0 * (kx + ky)))
+    return result
 
 
 def _halved_ends(size):
@@ -66,5 +72,5 @@ def _halved_ends(size):
     return weights
 
 
-_STENCILS = {"P1": _apply_p1, "CR": _apply_cr}
+_STENCILS = {"P1": _add_p1, "CR": _add_cr}
 _DIAGONALS = {"P1": _diagonal_p1, "CR": _diagonal_cr}

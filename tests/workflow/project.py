@@ -151,8 +151,8 @@ class Project:
         return self.build(*arguments, PYTHONPATH=str(folder), SPY=str(folder / "modules"), **environment)
 
     def results(self):
-        """Path below results -> content of every result; no logs and no benchmarks."""
-        files = [path for path in (self / "results").rglob("*") if path.is_file()]
+        """Path below results -> content of every result; no logs, benchmarks and time stamps that Snakemake keeps."""
+        files = [path for path in (self / "results").rglob("[!.]*") if path.is_file()]
         below = {path.relative_to(self / "results"): path for path in files}
         return {str(name): path.read_bytes() for name, path in below.items() if not RECORDS & set(name.parts)}
 

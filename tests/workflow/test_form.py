@@ -52,3 +52,10 @@ def test_report(paper):
     paper.build("--report", "report.html")
     text = (paper / "report.html").read_text(encoding="utf-8")
     assert all(name in text for name in ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png", "check.csv"))
+
+
+def test_report_of_a_scene(small):
+    small.build("--report", "report.html")
+    text = (small / "report.html").read_text(encoding="utf-8")
+    assert all(name in text for name in ("solution.png", "contact_line.png", "l2.png", "h1.png"))
+    assert text.count("Errors against mesh width") == 2

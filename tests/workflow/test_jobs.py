@@ -6,9 +6,9 @@ import re
 import pytest
 from project import LATEX, SMALL, modules_of, side_by_side
 
-ERRORS = {"errors": 1, "rates": 1, "table": 1, "figure_convergence": 2}
-DRAWINGS = {"figure_solution": 1, "figure_contact_line": 1}
-SHOWN = {"field": 1, "contact_line": 1} | DRAWINGS
+FIGURES = {"figures": 1}
+ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES
+SHOWN = {"field": 1, "contact_line": 1} | FIGURES
 SOLVES = {"reference": 1, "solve": 4} | SHOWN | ERRORS
 EVERYTHING = {"mesh": 1} | SOLVES
 
@@ -20,7 +20,7 @@ def test_clean_build(fresh):
 def test_clean_build_of_the_paper(fresh):
     fresh.ask_for("paper")
     expected = {"mesh": 1, "reference": 1, "solve": 12, "errors": 1, "rates": 1, "table_5_1": 1, "surface": 1}
-    expected |= {"figure_5_1": 1, "figure_5_2": 1, "figure_5_3": 1, "check": 1, "verify": 1}
+    expected |= {"figure_5_1": 1, "figures_5_2_and_5_3": 1, "check": 1, "verify": 1}
     expected |= {"effects": 1, "macros": 1, "paper": 1} if LATEX else {}
     assert fresh.jobs() == expected
 
@@ -39,10 +39,9 @@ def test_a_copy_with_new_time_stamps_has_nothing_to_do(small):
 # Module -> what a changed comment in it starts: any change of content counts, whatever it means.
 MODULES = {
     "figures/surface.py": {},
-    "figures/contact_line.py": {"figure_contact_line": 1},
-    "figures/convergence.py": {"figure_convergence": 2, "figure_contact_line": 1},
-    "figures/style.py": DRAWINGS | {"figure_convergence": 2},
-    "rates.py": {"rates": 1, "table": 1, "figure_convergence": 2},
+    "figures/convergence.py": FIGURES,
+    "figures/style.py": FIGURES,
+    "rates.py": {"rates": 1, "table": 1} | FIGURES,
     "errors/reference.py": ERRORS,
     "contact_line.py": SHOWN,
     "exact/harmonic.py": SOLVES,
@@ -53,9 +52,9 @@ MODULES = {
 
 # What is edited in the scene -> the text, its replacement, and what that starts.
 FIELDS = {
-    "title": ("title: A scene for tests", "title: Another", {"figure_solution": 1}),
-    "slope": ("slope: mean", "slope: fit", {"table": 1, "figure_convergence": 2}),
-    "norms": ("norms: [l2, h1]", "norms: [l2]", ERRORS | {"figure_convergence": 1}),
+    "title": ("title: A scene for tests", "title: Another", FIGURES),
+    "slope": ("slope: mean", "slope: fit", {"table": 1} | FIGURES),
+    "norms": ("norms: [l2, h1]", "norms: [l2]", ERRORS),
     "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", ERRORS),
     "outputs": ("[errors, rates, table, figures]", "[errors]", {}),
     "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SOLVES),
@@ -133,7 +132,7 @@ def test_what_a_job_imports_is_among_its_inputs(all_jobs, spied, scene):
 
 def test_a_process_imports_only_what_it_needs(built_small, spied):
     imports = modules_of(spied / "small")
-    drawing = {"figure_field.py", "figure_contact_line.py", "figure_convergence.py"}
+    drawing = {"figures.py"}
     assert {script for script in imports if "matplotlib" in imports[script]} == drawing
     assert {script for script in imports if {"yaml", "jsonschema"} & imports[script]} == {"__main__.py"}
     assert not {"scipy", "skfem", "signorini.mesh", "signorini.solvers"} & imports["__main__.py"]

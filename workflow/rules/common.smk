@@ -197,21 +197,32 @@ def scene_output(name):
     files += ["expect.txt"] if "expect" in asked.document else []
     files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
     if "figures" in outputs:
-        figures = FIGURES if paper else [f"figures/{figure}" for figure in scene_figures(asked)]
-        files += [f"{figure}.{ending}" for figure in figures for ending in ("pdf", "png")]
+        files += [f"{figure}.{ending}" for figure in FIGURES for ending in ("pdf", "png")] if paper else ["figures"]
     return solutions(name) + [f"results/{name}/{file}" for file in files]
 
 
-def scene_figures(asked):
-    document = asked.document
-    figures = ["solution"] + ["contact_line"] * has_contact(document["boundary"])
-    if "rates" in document["outputs"]:
-        figures += [norm for norm in document["norms"] if norm in RATED]
-    return figures
+def shown(wildcards):
+    """What the figures of a scene show: the field, and as far as there are any the contact line, errors and slopes."""
+    document = scene(wildcards.scene).document
+    files = {"field": "field.npz"}
+    if "contact" in document["boundary"] or "contact" in document["boundary"].values():
+        files |= {"line": "contact_line.csv"}
+    if drawn_norms(document):
+        files |= {"errors": "errors.csv", "rates": "rates.csv"}
+    return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
 
 
-def has_contact(boundary):
-    return "contact" in boundary or "contact" in boundary.values()
+def drawn_norms(document):
+    return [norm for norm in document["norms"] if norm in RATED] if "rates" in document["outputs"] else []
+
+
+def figure_options(wildcards):
+    """Options of figures.py for what `shown` lists, with the norms to draw and the kind of slope."""
+    document = scene(wildcards.scene).document
+    options = shown(wildcards)
+    if norms := drawn_norms(document):
+        options |= {"norms": ",".join(norms), "slope": document["slope"]}
+    return " ".join(f"--{name} {quote(value)}" for name, value in options.items())
 
 
 def paper_output():

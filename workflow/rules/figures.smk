@@ -23,8 +23,8 @@ rule figure_surface:
         library("figure_surface.py"),
         surface="results/{scene}/surface.npz",
     output:
-        pdf="results/{scene}/figures/surface.pdf",
-        png=report("results/{scene}/figures/surface.png", caption="../report/surface.rst", category="{scene}"),
+        pdf="results/{scene}/surface.pdf",
+        png=report("results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"),
     log:
         "results/{scene}/logs/figure_surface.log",
     priority: 7
@@ -48,22 +48,6 @@ rule field:
         " --output {output:q} 2>&1 | tee {log:q}"
 
 
-rule figure_solution:
-    input:
-        library("figure_field.py"),
-        field="results/{scene}/field.npz",
-    output:
-        pdf="results/{scene}/figures/solution.pdf",
-        png=report("results/{scene}/figures/solution.png", caption="../report/solution.rst", category="{scene}"),
-    log:
-        "results/{scene}/logs/figure_solution.log",
-    params:
-        title=lambda wildcards: scene(wildcards.scene).document["title"],
-    shell:
-        "python3 workflow/scripts/figure_field.py --field {input.field:q} --title={params.title:q}"
-        " {output:q} 2>&1 | tee {log:q}"
-
-
 rule contact_line:
     input:
         library("contact_line.py"),
@@ -80,17 +64,26 @@ rule contact_line:
         " {input.solutions:q} 2>&1 | tee {log:q}"
 
 
-rule figure_contact_line:
+# All figures of a scene at once: importing Matplotlib takes longer than drawing them.
+rule figures:
     input:
-        library("figure_contact_line.py"),
-        line="results/{scene}/contact_line.csv",
+        library("figures.py"),
+        unpack(shown),
     output:
-        pdf="results/{scene}/figures/contact_line.pdf",
-        png=report("results/{scene}/figures/contact_line.png", caption="../report/contact_line.rst", category="{scene}"),
+        report(
+            directory("results/{scene}/figures"),
+            patterns=["{figure}.png"],
+            caption="../report/figures.rst",
+            category="{scene}",
+        ),
     log:
-        "results/{scene}/logs/figure_contact_line.log",
+        "results/{scene}/logs/figures.log",
+    params:
+        title=lambda wildcards: scene(wildcards.scene).document["title"],
+        options=figure_options,
     shell:
-        "python3 workflow/scripts/figure_contact_line.py --line {input.line:q} {output:q} 2>&1 | tee {log:q}"
+        "python3 workflow/scripts/figures.py --title={params.title:q} {params.options} --output {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 rule gallery:
@@ -122,22 +115,3 @@ rule vtu:
     shell:
         "python3 workflow/scripts/vtu.py --mesh {input.mesh:q} --solution {input.solution:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
-
-
-rule figure_convergence:
-    input:
-        library("figure_convergence.py"),
-        errors="results/{scene}/errors.csv",
-        rates="results/{scene}/rates.csv",
-    output:
-        pdf="results/{scene}/figures/{norm}.pdf",
-        png=report("results/{scene}/figures/{norm}.png", caption="../report/convergence.rst", category="{scene}"),
-    log:
-        "results/{scene}/logs/figure_{norm}.log",
-    priority: 5
-    params:
-        norm="{norm}",
-        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
-    shell:
-        "python3 workflow/scripts/figure_convergence.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --norm {params.norm} --slope {params.slope} {output:q} 2>&1 | tee {log:q}"

@@ -14,26 +14,25 @@ use rule figure_surface as figure_5_1 with:
         png=report("results/{scene}/figure_5_1.png", caption="../report/surface.rst", category="paper"),
 
 
-use rule figure_convergence as figure_5_2 with:
+rule figures_5_2_and_5_3:
+    input:
+        library("figure_convergence.py"),
+        errors="results/paper/errors.csv",
+        rates="results/paper/rates.csv",
     output:
-        pdf="results/{scene,paper}/figure_5_2.pdf",
-        png=report("results/{scene}/figure_5_2.png", caption="../report/convergence.rst", category="paper"),
+        l2="results/paper/figure_5_2.pdf",
+        h1="results/paper/figure_5_3.pdf",
+        l2_png=report("results/paper/figure_5_2.png", caption="../report/convergence.rst", category="paper"),
+        h1_png=report("results/paper/figure_5_3.png", caption="../report/convergence.rst", category="paper"),
     log:
-        "results/{scene}/logs/figure_5_2.log",
+        "results/paper/logs/figures_5_2_and_5_3.log",
+    priority: 5
     params:
-        norm="l2",
-        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
-
-
-use rule figure_convergence as figure_5_3 with:
-    output:
-        pdf="results/{scene,paper}/figure_5_3.pdf",
-        png=report("results/{scene}/figure_5_3.png", caption="../report/convergence.rst", category="paper"),
-    log:
-        "results/{scene}/logs/figure_5_3.log",
-    params:
-        norm="h1",
-        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
+        slope=lambda wildcards: scene("paper").document["slope"],
+    shell:
+        "python3 workflow/scripts/figure_convergence.py --errors {input.errors:q} --rates {input.rates:q}"
+        " --slope {params.slope} --l2 {output.l2:q} {output.l2_png:q} --h1 {output.h1:q} {output.h1_png:q}"
+        " 2>&1 | tee {log:q}"
 
 
 rule check:

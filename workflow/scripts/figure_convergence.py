@@ -1,21 +1,21 @@
-"""Draw the errors in one norm against h, to PDF and PNG."""
+"""Draw the errors in L2 and in H1 against h, to PDF and PNG."""
 
 from stage import options, run
 
-from signorini.figures.convergence import draw_convergence
+from signorini.figures.convergence import draw_convergence, slopes_of
 from signorini.figures.style import save_figure
 from signorini.storage import read_csv
 
 
-@options("--errors", "--rates", "--norm", "--slope", ("outputs", {"nargs": "+"}))
+@options("--errors", "--rates", "--slope", ("--l2", {"nargs": "+"}), ("--h1", {"nargs": "+"}))
 def main(arguments):
-    """errors.csv and rates.csv to a figure in each of the formats that the outputs' endings name."""
-    rates = [row for row in read_csv(arguments.rates, numbers=("slope",)) if row["norm"] == arguments.norm]
-    slopes = {row["element"]: row["slope"] for row in rates if (row["kind"], row["floor"]) == (arguments.slope, "0")}
-    figure = draw_convergence(read_csv(arguments.errors), arguments.norm, slopes)
-    for path in arguments.outputs:
-        save_figure(figure, path)
-    return f"figure: {arguments.norm}"
+    """errors.csv and rates.csv to two figures, each in the formats that the outputs' endings name."""
+    errors, rates = read_csv(arguments.errors), read_csv(arguments.rates, numbers=("slope",))
+    for norm, paths in (("l2", arguments.l2), ("h1", arguments.h1)):
+        figure = draw_convergence(errors, norm, slopes_of(rates, norm, arguments.slope))
+        for path in paths:
+            save_figure(figure, path)
+    return "figures: l2, h1"
 
 
 if __name__ == "__main__":

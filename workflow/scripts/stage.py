@@ -1,11 +1,14 @@
 """What every stage does around its work: find the library, report a user's mistake in one line, run on one thread."""
 
+import gc
 import os
 import sys
 import time
 from argparse import ArgumentParser
 from pathlib import Path
 
+# A job is short: looking for cyclic garbage, above all while importing and at exit, takes a fifth of its time.
+gc.disable()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "src"))
 # Jobs share the machine's cores among themselves, and sums must not depend on how many threads there are.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -32,6 +35,7 @@ def run(main, description):
         line = main(parser.parse_args())
     except SignoriniError as error:
         sys.exit(f"error: {error}")
+    gc.freeze()
     print(f"{line} ({time.perf_counter() - start:.2f} s)")
 
 

@@ -69,6 +69,12 @@ def draw_convergence(errors, norm, slopes=None):
     return figure
 
 
+def slopes_of(rates, norm, kind):
+    """Element -> its slope of one kind in one norm, from rows of ``rates.csv``; none where errors are at round-off."""
+    wanted = (norm, kind, "0")
+    return {row["element"]: row["slope"] for row in rates if (row["norm"], row["kind"], row["floor"]) == wanted}
+
+
 def _set_limits(axes, widths, errors):
     """Let both axes run over whole decades; an error of exactly zero has no place on them."""
     for set_limit, values in ((axes.set_xlim, widths), (axes.set_ylim, errors)):

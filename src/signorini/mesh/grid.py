@@ -6,16 +6,26 @@ means the same on ``grid.skfem`` (tests hold the two together).
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from signorini.boundary import SIDES
+
+_CELLS_AT_ONCE = 2**15
 
 # Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
 CORNERS = {
     "falling": (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0))),
     "rising": (((1, 0), (1, 1), (0, 0)), ((0, 1), (0, 0), (1, 1))),
 }
+
+
+class Triangles(NamedTuple):
+    """Vertices and facets, both (3, k), of k triangles of a mesh."""
+
+    t: np.ndarray
+    t2f: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -85,8 +95,12 @@ class Grid:
     @property
     def p(self):
         """Vertices, shape (2, number_of_vertices), x running fastest."""
-        x, y = np.meshgrid(self.x, self.y)
-        return np.stack([x.ravel(), y.ravel()])
+        return np.stack(np.meshgrid(self.x, self.y)).reshape(2, -1)
+
+    def points(self, vertices):
+        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
+        j, i = np.divmod(vertices, self.nx + 1)
+        return np.stack([self.x[i], self.y[j]])
 
     @property
     def vertex_numbers(self):
@@ -115,32 +129,65 @@ class Grid:
         d = 3 * i[1:] - np.where(i[1:] == self.nx, 1, 0)
         return h, v, d
 
-    def split_edges(self, u):
+    def row_blocks(self):
+        """Ranges (first, last) of rows of cells, some `_CELLS_AT_ONCE` in each, so that temporaries stay in a cache."""
+        step = max(_CELLS_AT_ONCE // self.nx, 1)
+        return [(first, min(first + step, self.ny)) for first in range(0, self.ny, step)]
+
+    def _edge_rows(self, u):
+        """A vector over the facets as the edges leaving each vertex row, (ny, 3 nx + 1), and the top side's, (nx,)."""
+        width = 3 * self.nx + 1
+        return u[: self.ny * width].reshape(self.ny, width), u[self.ny * width :]
+
+    def split_edges(self, u, first=0, last=None):
         """Sort a vector over the facets by direction.
 
         Parameters
         ----------
         u : ndarray, shape (number_of_facets,)
+        first, last : int, optional
+            Rows of cells, from `first` to before `last`: their m rows of edges alone. By default all, m = ny.
 
         Returns
         -------
         horizontal, vertical, diagonal : ndarray
-            Shapes (ny + 1, nx), (ny, nx + 1) and (ny, nx).
+            Shapes (m + 1, nx), (m, nx + 1) and (m, nx).
         """
-        width = 3 * self.nx + 1
-        rows = u[: self.ny * width].reshape(self.ny, width)
+        rows, top = self._edge_rows(u)
         h, v, d = self._positions
-        return np.concatenate([rows[:, h], u[None, self.ny * width :]]), rows[:, v], rows[:, d]
+        part, above = rows[first:last], rows[last, h] if last is not None and last < self.ny else top
+        return np.concatenate([part[:, h], above[None]]), part[:, v], part[:, d]
 
     def join_edges(self, horizontal, vertical, diagonal):
         """Undo `split_edges`."""
-        width = 3 * self.nx + 1
         u = np.empty(self.number_of_facets, dtype=horizontal.dtype)
-        rows = u[: self.ny * width].reshape(self.ny, width)
+        rows, top = self._edge_rows(u)
         h, v, d = self._positions
-        rows[:, h], rows[:, v], rows[:, d] = horizontal[:-1], vertical, diagonal
-        u[self.ny * width :] = horizontal[-1]
+        rows[:, h], rows[:, v], rows[:, d], top[:] = horizontal[:-1], vertical, diagonal, horizontal[-1]
         return u
+
+    def add_edges(self, u, first, horizontal, vertical, diagonal):
+        """Add values at the edges of some rows of cells, `first` and following, to a vector over the facets in place."""
+        rows, top = self._edge_rows(u)
+        h, v, d = self._positions
+        part, last = rows[first : first + len(diagonal)], first + len(diagonal)
+        for positions, values in ((h, horizontal[:-1]), (v, vertical), (d, diagonal)):
+            part[:, positions] += values
+        above, positions = (rows[last], h) if last < self.ny else (top, slice(None))
+        above[positions] += horizontal[-1]
+
+    def facet_ends(self, facets):
+        """End vertices of facets given by their numbers, the smaller number first, shape (2, len(facets))."""
+        i = np.concatenate([np.arange(self.nx + 1)[: len(k)] for k in self._positions])
+        table = np.empty((2, 3 * self.nx + 1), dtype=int)
+        table[:, np.concatenate(self._positions)] = i, np.repeat(np.arange(3), [len(k) for k in self._positions])
+        row, position = np.divmod(facets, 3 * self.nx + 1)
+        i, kind = table[:, position]
+        i, kind = np.where(row < self.ny, i, position), np.where(row < self.ny, kind, 0)
+        up = self.nx + 1
+        start, step = (1, up - 1) if self.diagonal == "falling" else (0, up + 1)
+        first = row * up + i + np.where(kind == 2, start, 0)
+        return np.stack([first, first + np.array([1, up, step])[kind]])
 
     @property
     def t2f(self):
@@ -152,6 +199,27 @@ class Grid:
         pairs = zip((first[0], d, first[1]), (second[0], d, second[1]), strict=True)
         return np.stack([np.concatenate([a.ravel(), b.ravel()]) for a, b in pairs])
 
+    def triangles(self, numbers):
+        """Vertices and facets of triangles given by their numbers, as `Triangles`."""
+        kind, cell = np.divmod(numbers, self.nx * self.ny)
+        j, i = np.divmod(cell, self.nx)
+        offsets = np.array(self.corners, dtype=np.int32)[kind].transpose(1, 2, 0)
+        t = (j + offsets[:, 1]) * (self.nx + 1) + i + offsets[:, 0]
+        h, v, d = (positions.astype(np.int32) for positions in self._positions)
+        row = 3 * self.nx + 1
+        horizontal = (j + kind) * row + np.where(j + kind < self.ny, h[i], i)
+        vertical = j * row + v[i + (kind if self.diagonal == "falling" else 1 - kind)]
+        legs = (horizontal, vertical) if self.diagonal == "falling" else (vertical, horizontal)
+        return Triangles(t, np.stack([legs[0], j * row + d[i], legs[1]]))
+
+    def triangles_at(self, label):
+        """The triangles with a facet on the sides that carry `label`, each once, as `Triangles`."""
+        along, up = np.arange(self.nx, dtype=np.int32), np.arange(self.ny, dtype=np.int32) * self.nx
+        cells = self.nx * self.ny
+        left, right = (0, cells) if self.diagonal == "falling" else (cells, 0)
+        found = {"bottom": along, "right": right + up + self.nx - 1, "top": cells + up[-1] + along, "left": left + up}
+        return self.triangles(np.unique(np.concatenate([found[side] for side in self.sides(label)])))
+
     @property
     def facets(self):
         """End vertices of each facet, the smaller number first, shape (2, number_of_facets)."""
@@ -162,13 +230,15 @@ class Grid:
 
     def side_vertices(self, side):
         """Vertex numbers along a side, by increasing coordinate."""
-        v = self.vertex_numbers
-        return {"bottom": v[0], "top": v[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+        along, up = np.arange(self.nx + 1, dtype=np.int32), np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1)
+        return {"bottom": along, "top": up[-1] + along, "left": up, "right": up + self.nx}[side]
 
     def side_facets(self, side):
         """Facet numbers along a side, by increasing coordinate."""
-        h, v, _ = self.split_edges(np.arange(self.number_of_facets, dtype=np.int32))
-        return {"bottom": h[0], "top": h[-1], "left": v[:, 0], "right": v[:, -1]}[side]
+        h, v, _ = (positions.astype(np.int32) for positions in self._positions)
+        rows = np.arange(self.ny + 1, dtype=np.int32) * (3 * self.nx + 1)
+        top = rows[-1] + np.arange(self.nx, dtype=np.int32)
+        return {"bottom": h, "top": top, "left": rows[:-1] + v[0], "right": rows[:-1] + v[-1]}[side]
 
     def sides(self, label):
         """The sides that carry `label`, a tuple of names."""

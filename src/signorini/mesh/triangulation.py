@@ -12,6 +12,7 @@ import numpy as np
 from signorini.boundary import LABELS
 from signorini.exceptions import MeshError
 from signorini.mesh.check import unique_facets
+from signorini.mesh.grid import Triangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +85,21 @@ class Triangulation:
     def t2f(self):
         """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
         return self._facets[1]
+
+    def triangles_at(self, label):
+        """The triangles with a facet that carries `label`, each once, as `Triangles`."""
+        carries = np.zeros(self.number_of_facets, dtype=bool)
+        carries[self.boundary_facets(label)] = True
+        numbers = np.flatnonzero(carries[self.t2f].any(axis=0))
+        return Triangles(self.t[:, numbers], self.t2f[:, numbers])
+
+    def points(self, vertices):
+        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
+        return self.p[:, vertices]
+
+    def facet_ends(self, facets):
+        """End vertices of facets given by their numbers, shape (2, len(facets))."""
+        return self.facets[:, facets]
 
     @property
     def number_of_vertices(self):

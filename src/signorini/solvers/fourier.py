@@ -27,6 +27,7 @@ class _Strip:
     """A grid turned so that its contact side lies at row 0; `along` runs on that side, `away` from it."""
 
     side: str
+    kinds: dict
     near: str
     far: str
     beside: str
@@ -67,7 +68,7 @@ def _strip(grid):
             along, away = (grid.ny, grid.nx) if vertical else (grid.nx, grid.ny)
             kx, ky = hy / hx, hx / hy
             k = (ky, kx) if vertical else (kx, ky)
-            return _Strip(side, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k)
+            return _Strip(side, labels, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k)
     return None
 
 
@@ -95,14 +96,13 @@ def solve_fourier(problem, guess=None):
         If the active-set iteration does not end.
     """
     strip = _strip(problem.grid)
-    u = np.zeros_like(problem.b)
-    u[problem.fixed] = problem.fixed_values
-    u[problem.contact] = problem.lower
-    load = _load(problem, u)
+    load = _shifted_load(problem)
     route = (_Vertices if problem.element == "P1" else _Edges)(problem.grid, strip)
-    rows = route.basis.forward(route.reduce(load) / route.basis.mass)
+    rows = route.reduce(load)
+    if route.basis.weighted:
+        rows /= route.basis.mass
     count(factorisations=1)
-    factors, symbol = route.eliminate(rows)
+    factors, symbol = route.eliminate(route.basis.forward(rows, out=rows))
     gap, active, iterations = np.zeros(0), np.zeros(0, dtype=bool), 0
     if problem.contact.size:
         q = route.basis.mass * route.basis.backward(rows[0])
@@ -114,17 +114,23 @@ def solve_fourier(problem, guess=None):
         rows[0] /= symbol
     for j in range(1, rows.shape[0]):
         rows[j] += factors[j] * rows[j - 1]
-    u += route.extend(route.basis.backward(rows))
+    del factors
+    u = route.extend(route.basis.backward(rows, out=rows), load)
+    u[problem.fixed] = problem.fixed_values
     u[problem.contact] = problem.lower + gap
     return u, active, iterations, 0.0
 
 
-def _load(problem, u):
-    """b - A u, where u may be zero throughout."""
-    if not u.any():
+def _shifted_load(problem):
+    """The load less what the Dirichlet values and the obstacle take of it; the problem's own where that is nothing."""
+    if not (np.any(problem.fixed_values) or np.any(problem.lower)):
         return problem.b
+    u = np.zeros_like(problem.b)
+    u[problem.fixed] = problem.fixed_values
+    u[problem.contact] = problem.lower
     count(products=1)
-    return problem.b - apply_stiffness(problem.grid, problem.element, u)
+    load = apply_stiffness(problem.grid, problem.element, u)
+    return np.subtract(problem.b, load, out=load)
 
 
 class _Route:
@@ -187,9 +193,9 @@ class _Vertices(_Route):
         return self.grid.ny + 1, self.grid.nx + 1
 
     def reduce(self, load):
-        return np.ascontiguousarray(self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns])
+        return np.array(self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C")
 
-    def extend(self, rows):
+    def extend(self, rows, load):
         u = np.zeros(self._shape())
         self.strip.turn(u)[self.rows, self.columns] = rows
         return u.ravel()
@@ -217,36 +223,48 @@ class _Edges(_Route):
             self.coupling[1] = 2.0
         self.held = _held(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
 
-    def _turned(self, u):
-        h, v, d = self.grid.split_edges(u)
-        across, beside = (v, h) if self.strip.side in ("left", "right") else (h, v)
-        return tuple(self.strip.turn(part) for part in (across, beside, d))
+    def _shares(self, sides):
+        """What an edge hands to each of its cells, by rows (or columns) of edges that two sides end; none if held."""
+        held = [self.strip.kinds[side] == "dirichlet" or (side == self.strip.side and self.line) for side in sides]
+        shares = np.full((self.grid.nx if sides[0] == "left" else self.grid.ny) + 1, 0.5)
+        shares[[0, -1]] = np.where(held, 0.0, 1.0)
+        return shares
+
+    def _blocks(self, load):
+        """By blocks of rows of cells: the first and the one after the last, the load on their edges, their shares."""
+        along_y, along_x = self._shares(("bottom", "top"))[:, None], self._shares(("left", "right"))
+        for first, last in self.grid.row_blocks():
+            yield first, last, *self.grid.split_edges(load, first, last), along_y[first : last + 1], along_x
 
     def reduce(self, load):
-        self.across, self.beside, d = self._turned(load)
-        weight = 0.0 if self.strip.beside == "dirichlet" else 1.0
-        sides = self.beside * _ends(self.beside.shape[1], weight, weight)
-        far = 0.0 if self.strip.far == "dirichlet" else 1.0
-        rows = self.across * _ends(self.across.shape[0], 0.0, far)[:, None]
-        cells = d + sides[:, :-1] + sides[:, 1:] + rows[:-1] + rows[1:]
-        return np.concatenate([self.across[: self.line], cells])
+        rows = np.empty((self.strip.away + self.line, self.strip.along))
+        cells = self.strip.back(rows[self.line :])
+        if self.line:
+            rows[0] = load[self.grid.side_facets(self.strip.side)]
+        for first, last, h, v, d, share_h, share_v in self._blocks(load):
+            h *= share_h
+            v *= share_v
+            cells[first:last] = d + h[:-1] + h[1:] + v[:, :-1] + v[:, 1:]
+        return rows
 
-    def extend(self, rows):
-        d = rows[self.line :]
-        fixed_far, fixed_sides = self.strip.far == "dirichlet", self.strip.beside == "dirichlet"
-        across, beside = np.zeros_like(self.across), np.zeros_like(self.beside)
-        across[:1] = rows[:1] if self.line else 0.0
-        across[1:-1] = 0.5 * (d[:-1] + d[1:]) + self.across[1:-1] / (4.0 * self.strip.k_away)
-        across[-1] = 0.0 if fixed_far else d[-1] + self.across[-1] / (2.0 * self.strip.k_away)
-        beside[:, 1:-1] = 0.5 * (d[:, :-1] + d[:, 1:]) + self.beside[:, 1:-1] / (4.0 * self.strip.k_along)
-        for end in (0, -1):
-            beside[:, end] = 0.0 if fixed_sides else d[:, end] + self.beside[:, end] / (2.0 * self.strip.k_along)
-        across, beside, d = (self.strip.back(part) for part in (across, beside, d))
-        h, v = (beside, across) if self.strip.side in ("left", "right") else (across, beside)
-        return self.grid.join_edges(h, v, d)
-
-
-def _ends(size, first, last):
-    weights = np.full(size, 0.5)
-    weights[0], weights[-1] = first, last
-    return weights
+    def extend(self, rows, load):
+        u = np.zeros_like(load)
+        cells = self.strip.back(rows[self.line :])
+        hx, hy = self.grid.spacing
+        k_h, k_v = hx / hy, hy / hx
+        for first, last, h, v, _, share_h, share_v in self._blocks(load):
+            d = cells[first:last]
+            h /= 2.0 * k_h
+            h[1:] += d
+            h[:-1] += d
+            if first > 0:
+                h[0] += cells[first - 1]
+            if last < self.grid.ny:
+                h[-1] = 0.0  # the next block's first row
+            v /= 2.0 * k_v
+            v[:, 1:] += d
+            v[:, :-1] += d
+            self.grid.add_edges(u, first, share_h * h, share_v * v, d)
+        if self.line:
+            u[self.grid.side_facets(self.strip.side)] = rows[0]
+        return u

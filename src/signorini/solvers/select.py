@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.solvers.solution import Solution, kkt_residual, status_of
+from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
 METHODS = {
@@ -73,7 +73,7 @@ def solve(problem, method="auto", guess=None):
         )
     multiplier = np.where(active, np.maximum(multiplier, 0.0), 0.0)
     return Solution(
-        u=np.ldexp(u, exponent),
+        u=np.ldexp(u, exponent, out=u),
         multiplier=np.ldexp(multiplier, exponent),
         active=active,
         residual=residual,
@@ -146,19 +146,21 @@ def _check_solvable(problem):
 
 def _touching(problem, u, active):
     """Where u binds: also where it is above the obstacle by round-off alone, so that no route decides biactive dofs."""
-    size = max(float(np.max(np.abs(values), initial=0.0)) for values in (u, problem.lower))
+    size = max(largest(values) for values in (u, problem.lower))
     return active | (u[problem.contact] - problem.lower <= _TOUCHING * size)
 
 
 def _exponent(problem):
     """The power of two that brings the data to order one; exact, so results scale with the data bit for bit."""
-    size = max(float(np.max(np.abs(v), initial=0.0)) for v in (problem.b, problem.lower, problem.fixed_values))
+    size = max(largest(values) for values in (problem.b, problem.lower, problem.fixed_values))
     if 0.0 < size < np.finfo(float).tiny:
         warnings.warn(f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3)
     return int(np.frexp(size)[1]) if size else 0
 
 
 def _scaled(problem, exponent):
+    if not exponent:
+        return problem
     parts = {name: np.ldexp(getattr(problem, name), exponent) for name in ("b", "lower", "fixed_values")}
     scaled = replace(problem, **parts)
     if "A" in problem.__dict__:

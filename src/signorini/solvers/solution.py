@@ -9,6 +9,7 @@ from signorini.solvers.count import count
 # A residual is a backward error; what it may be called, from the best name to the worst.
 SOLVED = 1e-10
 INACCURATE = 1e-6
+_AT_ONCE = 2**16
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,31 +69,42 @@ def kkt_residual(problem, u):
     multiplier : ndarray, shape (nc,)
     """
     count(products=1)
-    force = problem.apply(u) - problem.b
+    force = problem.apply(u)
+    force -= problem.b
     multiplier = force[problem.contact]
     if not np.all(np.isfinite(force)):
         return np.inf, multiplier
     gap = u[problem.contact] - problem.lower
-    length_scale = max(_largest(u), _largest(problem.lower), _largest(problem.fixed_values))
-    force_scale = np.abs(problem.b) + _diagonal(problem) * length_scale
-    force = np.divide(force, force_scale, out=np.zeros_like(force), where=force_scale > 0.0)
+    length_scale = max(largest(u), largest(problem.lower), largest(problem.fixed_values))
+    _divide_by_force_scale(force, problem, length_scale)
     length_scale = length_scale or 1.0
     gap /= length_scale
     pressure = force[problem.contact]
     force[problem.contact] = 0.0
     force[problem.fixed] = 0.0
     violations = (
-        _largest(force),
-        _largest(np.minimum(pressure, 0.0)),
-        _largest(np.minimum(gap, 0.0)),
-        _largest(np.minimum(np.maximum(gap, 0.0), np.maximum(pressure, 0.0))),
-        _largest(u[problem.fixed] - problem.fixed_values) / length_scale,
+        largest(force),
+        largest(np.minimum(pressure, 0.0)),
+        largest(np.minimum(gap, 0.0)),
+        largest(np.minimum(np.maximum(gap, 0.0), np.maximum(pressure, 0.0))),
+        largest(u[problem.fixed] - problem.fixed_values) / length_scale,
     )
     return float(max(violations)), multiplier
 
 
-def _largest(values):
-    return float(np.max(np.abs(values), initial=0.0))
+def _divide_by_force_scale(force, problem, length_scale):
+    """Divide by |b| + diag(A) G in place, where that is not zero; a part at a time, for memory."""
+    scale = _diagonal(problem)
+    scale *= length_scale
+    for first in range(0, force.size, _AT_ONCE):
+        part = slice(first, first + _AT_ONCE)
+        scale[part] += np.abs(problem.b[part])
+        force[part] = np.divide(force[part], scale[part], out=np.zeros(force[part].size), where=scale[part] > 0.0)
+
+
+def largest(values):
+    """Greatest absolute value, without an array of them."""
+    return float(max(np.max(values, initial=0.0), -np.min(values, initial=0.0)))
 
 
 def _diagonal(problem):

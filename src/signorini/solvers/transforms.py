@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_ROWS_AT_ONCE = 64
+_VALUES_AT_ONCE = 2**15
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class Basis:
     Parameters
     ----------
     forward, backward : callable
-        Map arrays (..., size) of values to coefficients and back.
+        Map arrays (..., size) of values to coefficients and back; into `out` where given, which may be the array.
     eigenvalues : ndarray, shape (size,)
         Of the second difference -x[i-1] + 2 x[i] - x[i+1] with the basis's own end conditions.
     mass : ndarray, shape (size,)
@@ -29,6 +29,11 @@ class Basis:
     backward: object
     eigenvalues: np.ndarray
     mass: np.ndarray
+
+    @property
+    def weighted(self):
+        """Whether any weight differs from one."""
+        return bool(np.any(self.mass != 1.0))
 
 
 def vertex_cosines(n):
@@ -91,11 +96,12 @@ def _second_difference(k, n):
 def _by_rows(transform):
     """Let a transform of (m, size) arrays take (size,) too, and long arrays a block of rows at a time."""
 
-    def transformed(x):
+    def transformed(x, out=None):
         rows = np.atleast_2d(x)
-        result = np.empty_like(rows)
-        for start in range(0, rows.shape[0], _ROWS_AT_ONCE):
-            block = slice(start, start + _ROWS_AT_ONCE)
+        result = np.empty_like(rows) if out is None else out
+        step = max(_VALUES_AT_ONCE // rows.shape[1], 1)
+        for start in range(0, rows.shape[0], step):
+            block = slice(start, start + step)
             result[block] = transform(rows[block])
         return result.reshape(x.shape)
 

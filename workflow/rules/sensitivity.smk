@@ -1,8 +1,9 @@
 # `snakemake sensitivity`: the paper's table under all combinations of the choices that the paper leaves unsaid. Every job
 # solves what one diagonal needs; the rest is arithmetic on its errors.
 
+from signorini.studies.unsaid import DIAGONALS
+
 SENSITIVITY = f"{STUDIES}/sensitivity"
-DIAGONALS = ["falling", "rising", "alternating", "alternating-rising", "criss-cross"]
 
 
 def sensitivity_levels():

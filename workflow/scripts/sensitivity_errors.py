@@ -6,8 +6,8 @@ from stage import options, run
 
 from signorini.statement import ProblemStatement
 from signorini.storage import write_csv
-from signorini.studies.combinations import count_solves
 from signorini.studies.sensitivity import errors_of_diagonal
+from signorini.studies.unsaid import count_solves
 
 
 @options("--statement", "--diagonal", "--levels", ("--reference-n", {"type": int}), "--output")

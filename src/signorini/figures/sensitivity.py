@@ -12,13 +12,14 @@ from signorini.tables import percent
 DIAGONALS = {
     "falling": "falling",
     "rising": "rising",
-    "alternating": "alternating,\nfalling first",
-    "alternating-rising": "alternating,\nrising first",
+    "alternating": "alternating\n(falling)",
+    "alternating-rising": "alternating\n(rising)",
     "criss-cross": "criss-cross",
 }
 H1 = {"full": "$H^1$: full norm", "semi": "$H^1$: seminorm"}
 NEAR = LinearSegmentedColormap.from_list("near", ["#1d4f86", ACCENT, "#7ba7d7", "#c9dcf0", "#fbfcfe"])
 BETTER = LinearSegmentedColormap.from_list("better", ["#1d4f86", "#7ba7d7", "#ffffff", "#cea97b", "#87521c"])
+FLAT = 0.8  # height of a tile over its width
 WIDEST = 4.0  # ratios beyond, or below its inverse, have the darkest colours
 
 # Inches.
@@ -45,7 +46,7 @@ def draw_matches(rows):
     diagonals, loads, meanings = (_distinct(rows, name) for name in ("diagonal", "load", "h1"))
     groups = _rules_alike(rows)
     side = (TEXT_WIDTH - LABELS - 0.2 - GAP * (len(groups) - 1)) / len(groups)
-    height = side * len(diagonals) / len(loads)
+    height = FLAT * side * len(diagonals) / len(loads)
     page = TEXT_WIDTH, CAPTION + BELOW + len(meanings) * (height + GAP) + ABOVE
     figure = new_figure(*page)
     misses = [float(row["largest_miss"]) for row in rows]
@@ -60,7 +61,7 @@ def draw_matches(rows):
                     miss = float(row["largest_miss"])
                     dark = colours.norm(miss) < 0.4
                     _tile(axes, x, y, colours.to_rgba(miss), (row["matched"], 8, 0.4), dark)
-                    _tile(axes, x, y, None, (f"{percent(miss)}%", 6, 0.77), dark)
+                    _tile(axes, x, y, None, (f"{percent(miss)}%", 5.6, 0.78), dark)
             if j == 0:
                 axes.set_title(f"norms {rules}", fontsize=8)
             if i == len(groups) - 1:

@@ -5,17 +5,8 @@ import math
 from signorini.check import compare
 from signorini.rates import slopes
 from signorini.storage import read_csv
+from signorini.studies.unsaid import CHOICES, ELEMENTS, H1, PAPER, SLOPES
 
-# The options of each choice, the paper's first.
-DIAGONALS = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
-LOADS = ("centroid", "midpoints", "vertices", "exact", "nodal")
-RULES = ("exact", "midpoints", "centroid", "vertices")
-H1 = {"full": "h1", "semi": "h1_semi"}
-SLOPES = ("mean", "fit")
-CHOICES = {"diagonal": DIAGONALS, "load": LOADS, "rule": RULES, "h1": tuple(H1), "slope": SLOPES}
-PAPER = {choice: options[0] for choice, options in CHOICES.items()}
-
-ELEMENTS = ("P1", "CR")
 NORMS = ("l2", "h1")
 TIE = "tie"
 _ROUNDING = 1e-9
@@ -117,12 +108,6 @@ def ratios(errors):
         for (diagonal, load, rule), table in _tables(errors).items()
         for n in sorted({n for _, n in table})
     ]
-
-
-def count_solves(errors):
-    """Solves that the rows took: one per diagonal, load, element and level, and a reference per diagonal and load."""
-    references = {(row["diagonal"], row["load"]) for row in errors}
-    return len({(row["diagonal"], row["load"], row["element"], row["n"]) for row in errors}) + len(references)
 
 
 def where(rows, **choices):

@@ -69,7 +69,7 @@ def _latex_text(block):
 
 def _latex_figure(block):
     return (
-        "\\begin{figure}[htbp]\n\\centering\n"
+        "\\begin{figure}[!htb]\n\\centering\n"
         f"\\includegraphics{{{block.name}.pdf}}\n\\caption{{{_tex(block.caption)}}}\n\\label{{{block.name}}}\n"
         "\\end{figure}\n"
     )
@@ -81,7 +81,7 @@ def _latex_table(block):
     head, *body = (" & ".join(row) + r" \\" for row in rows)
     lines = ["\\toprule", head, "\\midrule", *body, "\\bottomrule"]
     return (
-        f"\\begin{{table}}[htbp]\n\\centering\\footnotesize\n\\caption{{{_tex(block.caption)}}}\n\\label{{{block.name}}}\n"
+        f"\\begin{{table}}[!htb]\n\\centering\\footnotesize\\setlength{{\\tabcolsep}}{{4pt}}\n\\caption{{{_tex(block.caption)}}}\n\\label{{{block.name}}}\n"
         f"\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n" + "\n".join(lines) + "\n\\end{tabular}\n\\end{table}\n"
     )
 

@@ -8,7 +8,7 @@ from functools import cache
 
 from signorini.choices import solutions, with_choices
 from signorini.errors.overlay import Overlay
-from signorini.studies.combinations import ELEMENTS, LOADS, RULES
+from signorini.studies.unsaid import ELEMENTS, LOADS, RULES
 
 
 def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, rules=RULES):

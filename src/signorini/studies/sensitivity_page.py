@@ -2,8 +2,9 @@
 
 from collections import Counter
 
-from signorini.studies.combinations import CHOICES, NORMS, PAPER, SERIES, TIE, count_solves, one_at_a_time, where
+from signorini.studies.combinations import NORMS, SERIES, TIE, one_at_a_time, where
 from signorini.studies.page import Figure, Table, Text
+from signorini.studies.unsaid import CHOICES, PAPER, count_solves
 from signorini.tables import ELEMENTS, percent
 
 TITLE = "Sensitivity to what the paper leaves unsaid"
@@ -12,8 +13,8 @@ NAMES = {
     "diagonal": {
         "falling": "falling",
         "rising": "rising",
-        "alternating": "alternating, falling first",
-        "alternating-rising": "alternating, rising first",
+        "alternating": "alternating (falling)",
+        "alternating-rising": "alternating (rising)",
         "criss-cross": "criss-cross",
     },
     "load": {"exact": "exact", "nodal": "nodal"},
@@ -149,17 +150,18 @@ def _changes_table(rows):
     for row in found:
         changed = [choice for choice in CHOICES if row[choice] != PAPER[choice]]
         name = f"{WORDS[changed[0]]}: {_name(changed[0], row[changed[0]])}" if changed else "as found"
-        letters = ["".join(_LETTERS[word] for word in row[f"{norm}_smaller"].split()) for norm in NORMS]
-        slopes = [str(row["slopes_matched"])] if row["slopes"] else []
-        body.append([name, *letters, str(row["matched"]), *slopes, f"{percent(row['largest_miss'])} %", *_rates(row)])
-    head = ["choice", *(f"{SYMBOLS[norm]} smaller" for norm in NORMS), "errors", *["slopes"] * bool(found[0]["slopes"])]
-    head += ["largest miss", *(f"{SYMBOLS[norm]} {ELEMENTS[element]}" for norm, element in SERIES)]
-    caption = _prose("""
-        One choice changed at a time. Who has the smaller error on each level, coarsest first (C is CF, N is NCF, = a
-        tie); how many published numbers are matched, and the largest relative miss of an error; the average slopes to
-        one decimal.
-        """)
-    return Table("sensitivity_changes", caption, tuple(head), body, left=3)
+        letters = "".join(_LETTERS[word] for word in row["l2_smaller"].split())
+        slopes = [str(row["slopes_matched"])] * bool(row["slopes"])
+        rates = [", ".join(pair) for pair in (_rates(row)[:2], _rates(row)[2:])]
+        body.append([name, letters, str(row["matched"]), *slopes, f"{percent(row['largest_miss'])} %", *rates])
+    head = ["choice", "$L^2$ smaller", "errors", *["slopes"] * bool(found[0]["slopes"]), "off by"]
+    caption = """
+        One choice changed at a time: who has the smaller $L^2$ error on each level, coarsest first (C is CF, N is
+        NCF, = a tie); how many published errors and slopes are matched, and by how much the worst of the errors is
+        off; the average slopes of CF and NCF to one decimal.
+        """
+    head += [f"slopes {SYMBOLS[norm]}" for norm in NORMS]
+    return Table("sensitivity_changes", _prose(caption), tuple(head), body, left=2)
 
 
 def _conclusions(rows, pairs, levels):
@@ -174,8 +176,9 @@ def _conclusions(rows, pairs, levels):
         and a load rule, {len(same)} give this ranking on every level, {len(better)} give NCF the smaller $L^2$ error
         on the geometric mean over the levels (@sensitivity_ratios, @sensitivity_rankings), and {len(rates)} give the
         same four slopes to one decimal; @sensitivity_loads gathers them by load rule. The rule for the norms and the
-        meaning of the $H^1$ error change the ranking in $L^2$ for {_unstable(rows, "l2")} of these pairs, and that in
-        $H^1$ for {_unstable(rows, "h1")}. {ties if any(TIE in row["l2_smaller"] for row in pairs) else ""}
+        meaning of the $H^1$ error change the ranking in $L^2$ for {_unstable(rows, "l2") or "none"} of these pairs,
+        and that in $H^1$ for {_unstable(rows, "h1") or "none"}.
+        {ties if any(TIE in row["l2_smaller"] for row in pairs) else ""}
         """)
     )
 
@@ -240,13 +243,13 @@ def _method(rows, errors, levels, reference_n):
         _prose(f"""
         Every combination has its own reference, CF with $h = 1/{reference_n}$ under the same diagonal and load rule.
         Solves are shared: {count_solves(errors)} in place of {each * len(rows)}, which are {each} for each
-        combination. In an alternating pattern the diagonals change like the colours of a chessboard; falling first
-        and rising first tell how the lower left square is cut, and with it all others of its colour. Falling, rising,
-        criss-cross, and alternating meshes with a rising first diagonal nest in the reference's ({2 * reference_n**2}
-        triangles, twice as many for criss-cross, at equal $N$). With a falling first diagonal, edges of the coarse
-        mesh cut through triangles of the reference's, which are halved there. On the triangles of this common
-        refinement both functions are affine, and the rule for the norms is applied to them: the exact one is exact
-        for all diagonals. With the nodal load, $f$ is replaced by its interpolant in the element's own nodes; for NCF
-        this is the rule of the midpoints.
+        combination. In an alternating pattern the diagonals change like the colours of a chessboard; (falling) and
+        (rising) tell how the lower left square is cut, and with it all others of its colour. Falling, rising,
+        criss-cross, and alternating (rising) meshes nest in the reference's ({2 * reference_n**2} triangles, twice as
+        many for criss-cross, at equal $N$). In the alternating (falling) pattern, edges of the coarse mesh cut
+        through triangles of the reference's, which are halved there. On the triangles of this common refinement both
+        functions are affine, and the rule for the norms is applied to them: the exact one is exact for all diagonals.
+        With the nodal load, $f$ is replaced by its interpolant in the element's own nodes; for NCF this is the rule
+        of the midpoints.
         """)
     )

@@ -241,6 +241,15 @@ def appendix():
     return [part for path in fragments if path.is_file() for part in (path, *sorted(path.parent.glob("*.pdf")))]
 
 
+def sensitivity_levels():
+    """The levels of the paper's table, or the coarse ones of them."""
+    return [n for n in scene("paper").levels if n <= 16 or not CONFIG["quick"]]
+
+
+def sensitivity_reference():
+    return scene("paper").truth["n"] // (4 if CONFIG["quick"] else 1)
+
+
 def digest(paths):
     return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
 

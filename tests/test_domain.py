@@ -28,7 +28,7 @@ def test_a_plain_rectangle_is_a_grid(diagonal):
     assert mesh.diagonal == diagonal
 
 
-@pytest.mark.parametrize("diagonal", ["alternating", "criss-cross"])
+@pytest.mark.parametrize("diagonal", ["alternating", "alternating-rising", "criss-cross"])
 @pytest.mark.parametrize("n", [1, 3, 8])
 def test_other_patterns_cover_the_rectangle_and_its_sides(diagonal, n):
     mesh = make_domain(SQUARE | {"diagonal": diagonal, "size": [2, 1]}, SIDES, 1).level(n)

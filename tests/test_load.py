@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from skfem import Basis, FacetBasis, LinearForm
+from skfem import Basis, BilinearForm, FacetBasis, LinearForm
 
 from builders import DATA, PAPER, delaunay, grid, perturbed
 from signorini.elements import ELEMENTS, element
@@ -15,6 +15,7 @@ from signorini.quadrature import triangle_rule
 ZERO = Formula("0")
 F, G = Formula(DATA["f"], "data.f"), Formula(DATA["g"], "data.g")
 RULES = ("centroid", "midpoints", "vertices", "exact", 1, 4)
+NODAL = "nodal"
 MESHES = {
     "falling grid": lambda: grid(4, 3, size=(2.0, 0.5)),
     "rising grid": lambda: grid(3, 4, diagonal="rising", origin=(1.0, -2.0)),
@@ -49,11 +50,24 @@ def test_the_load_is_scikit_fems(mesh, kind, rule):
 
 
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", [*RULES, NODAL])
 def test_a_grid_gets_the_load_of_its_triangles(kind, rule, diagonal):
     mesh = grid(5, 3, diagonal=diagonal, size=(1.0, 2.0))
     by_cells, by_triangles = (assemble_load(m, kind, F, G, rule) for m in (mesh, Triangulation.from_skfem(mesh.skfem)))
     np.testing.assert_allclose(by_cells, by_triangles, rtol=0, atol=1e-14)
+
+
+def test_the_nodal_load_is_that_of_the_interpolant(mesh, kind):
+    """The mass matrix times f at the nodes."""
+    basis = Basis(mesh.skfem, kind.skfem(), intorder=2)
+    mass = BilinearForm(lambda u, v, w: u * v).assemble(basis)
+    expected = mass @ F(*kind.nodes(mesh, np.arange(kind.size(mesh))))
+    np.testing.assert_allclose(assemble_load(mesh, kind, F, ZERO, NODAL), expected, rtol=0, atol=1e-13)
+
+
+def test_for_cr_the_nodal_load_is_the_midpoint_rule(mesh):
+    found = [assemble_load(mesh, element("CR"), F, ZERO, rule) for rule in (NODAL, "midpoints")]
+    np.testing.assert_allclose(*found, rtol=0, atol=1e-14)
 
 
 def test_the_sum_is_the_integral_of_the_data(mesh, kind):

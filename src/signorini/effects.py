@@ -1,10 +1,7 @@
 """What each choice that the paper leaves unsaid does to its table: the largest relative change of an entry."""
 
-from dataclasses import replace
-
+from signorini.choices import largest_change, solutions, with_choices
 from signorini.errors import ReferenceErrors
-from signorini.problem import discretize
-from signorini.solvers import solve
 
 
 def effects_of_choices(statement, errors, elements, levels, reference, norms):
@@ -28,28 +25,27 @@ def effects_of_choices(statement, errors, elements, levels, reference, norms):
         Largest ``|changed / entry - 1|`` of an entry, dimensionless, for ``"diagonal"`` (the other one), ``"load"``
         (integrated exactly), ``"norm"`` (seminorm for full norm) and ``"quadrature"`` (norms by the centroid rule).
     """
-    other = {"falling": "rising", "rising": "falling"}[statement.domain["diagonal"]]
-    turned = replace(statement, domain=statement.domain | {"diagonal": other})
-    exact = replace(statement, load_quadrature="exact")
+    diagonal, load = statement.domain["diagonal"], statement.load_quadrature
+    other = {"falling": "rising", "rising": "falling"}[diagonal]
     asked = (elements, levels, reference, norms)
-    semi = {key: errors[(*key[:2], "h1_semi" if key[2] == "h1" else key[2])] for key in errors}
     changed = {
-        "diagonal": _table(turned, *asked),
-        "load": _table(exact, *asked),
-        "norm": semi,
+        "diagonal": _table(with_choices(statement, other, load), *asked),
+        "load": _table(with_choices(statement, diagonal, "exact"), *asked),
+        "norm": {key: errors[(*key[:2], "h1_semi" if key[2] == "h1" else key[2])] for key in errors},
         "quadrature": _table(statement, *asked, quadrature="centroid"),
     }
-    keys = [(element, n, norm) for element in elements for n in levels for norm in norms]
-    return {choice: max(abs(table[key] / errors[key] - 1.0) for key in keys) for choice, table in changed.items()}
+    entries = {(e, n, norm): errors[e, n, norm] for e in elements for n in levels for norm in norms}
+    return {choice: largest_change(entries, table) for choice, table in changed.items()}
 
 
 def _table(statement, elements, levels, reference, norms, quadrature="exact"):
-    problem = discretize(statement, *reference)
-    truth = ReferenceErrors(problem.mesh, problem.element, solve(problem).u, norms, quadrature)
+    pairs = [(element, n) for element in elements for n in levels]
+    solved = solutions(statement, [*pairs, reference])
+    mesh, u = solved[reference]
+    truth = ReferenceErrors(mesh, reference[0], u, norms, quadrature)
     table = {}
-    for element in elements:
-        for n in levels:
-            problem = discretize(statement, element, n)
-            found = truth.of(problem.mesh, element, solve(problem).u)
-            table |= {(element, n, norm): found[norm] for norm in norms}
+    for element, n in pairs:
+        mesh, u = solved[element, n]
+        found = truth.of(mesh, element, u)
+        table |= {(element, n, norm): found[norm] for norm in norms}
     return table

@@ -19,6 +19,11 @@ class Element:
     title: str
     basis: np.ndarray
 
+    @property
+    def nodes_of_triangle(self):
+        """Barycentric coordinates of the nodes of the local shape functions, (3, 3): a column each."""
+        return np.linalg.inv(self.basis)
+
     def shape(self, barycentric):
         """Values of the local shape functions, (3, q), at points of barycentric coordinates (3, q)."""
         return self.basis @ barycentric

@@ -19,14 +19,14 @@ def assemble_load(mesh, element, f, g, rule):
     f, g : Formula
         Volume force, and flux on the Neumann part.
     rule : str or int
-        Quadrature rule on triangles; see `quadrature.triangle_rule`. Boundary integrals of g use Gauss points.
+        Quadrature rule on triangles, see `quadrature.triangle_rule`; or ``"nodal"``: f is replaced by its interpolant
+        in the element's own nodes (for CR this is the rule ``"midpoints"``). Boundary integrals of g use Gauss points.
 
     Returns
     -------
     ndarray, shape (ndof,)
     """
-    points, weights = triangle_rule(rule, mesh.number_of_triangles)
-    shape = element.shape(points) * weights
+    points, shape = _weighted(element, rule, mesh.number_of_triangles)
     if f.constant == 0.0:
         b = np.zeros(element.size(mesh))
     elif isinstance(mesh, Grid):
@@ -36,6 +36,16 @@ def assemble_load(mesh, element, f, g, rule):
     if g.constant != 0.0:
         _add_flux(b, mesh, element, g)
     return b
+
+
+def _weighted(element, rule, number_of_triangles):
+    """Points where f is asked for, (3, q), and what its value there weighs for each shape function, (3, q)."""
+    if rule == "nodal":
+        points, weights = triangle_rule("midpoints")  # exact for products of two shape functions
+        shape = element.shape(points)
+        return element.nodes_of_triangle, (shape * weights) @ shape.T
+    points, weights = triangle_rule(rule, number_of_triangles)
+    return points, element.shape(points) * weights
 
 
 def _on_grid(grid, element, f, points, shape):

@@ -3,9 +3,8 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from decimal import Decimal
 
-from signorini.tables import ELEMENTS, NORMS, fixed, slopes_by_series
+from signorini.tables import ELEMENTS, NORMS, fixed, percent, slopes_by_series
 
 SERIES = {
     f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element) for norm in ("l2", "h1", "h1_semi") for element in ELEMENTS
@@ -191,7 +190,7 @@ def paper_values(
         printed = {(row["norm"], row["element"]): row["slope"] for row in published}
         values |= {f"PublishedSlope{s}": printed[key] for s, key in PRINTED_SERIES.items()}
     if effects:
-        values |= {f"Effect{choice.capitalize()}": _percent(effects[choice]) for choice in CHOICES}
+        values |= {f"Effect{choice.capitalize()}": percent(effects[choice]) for choice in CHOICES}
     if exact:
         values |= _error_values("Exact", exact[0])
         values |= _slope_values("ExactMeanSlope", L2_SERIES, exact[1], "mean")
@@ -213,8 +212,3 @@ def _error_values(prefix, errors):
         for end, n in (("Coarsest", levels[0]), ("Finest", levels[-1]))
         for name, (norm, element) in L2_SERIES.items()
     }
-
-
-def _percent(share):
-    """Return 100 `share` with two significant digits and no exponent."""
-    return f"{Decimal(f'{100 * share:.1e}'):f}"

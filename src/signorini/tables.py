@@ -4,6 +4,8 @@ Every number is rounded once, from its binary value straight to the printed digi
 is correctly rounded, exact ties to even).
 """
 
+from decimal import Decimal
+
 from signorini.rates import is_round_off
 
 NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters only)
@@ -137,6 +139,11 @@ def slopes_by_series(rates, kind):
 def fixed(value, decimals):
     """Return a number with that many decimals, correctly rounded; a dash for None or empty text."""
     return MISSING if value in (None, "") else f"{float(value):.{decimals}f}"
+
+
+def percent(share):
+    """Return 100 `share` with two significant digits and no exponent."""
+    return f"{Decimal(f'{100 * share:.1e}'):f}"
 
 
 def _format_column(values, decimals):

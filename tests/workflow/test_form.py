@@ -13,7 +13,9 @@ RULES = {
     for name, body in re.findall(r"^rule (\w+):\n((?: .*\n|\n)+)", path.read_text(encoding="utf-8"), re.M)
 }
 # A script that imports one of these rooms computes; the others format, draw or check.
-COMPUTING = re.compile(r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line)\b", re.M)
+COMPUTING = re.compile(
+    r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line|studies\.sensitivity)\b", re.M
+)
 
 
 @pytest.mark.parametrize("rule", RULES)

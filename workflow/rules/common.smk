@@ -39,13 +39,18 @@ def reported(function):
     return called
 
 
+def truth_value(value):
+    """Of a value from the command line, where Snakemake reads True and False, but leaves YAML's true and false a text."""
+    return value == "true" if value in ("true", "false") else value
+
+
 @reported
 def check_config():
     """config.yaml, read strictly, under what the command line says."""
     source = "config/config.yaml"
     document = load_yaml(source)
     if isinstance(document, dict):
-        document |= config
+        document |= {key: truth_value(value) for key, value in config.items()}
     return validated(document, load_yaml("workflow/schemas/config.schema.yaml"), source)
 
 
@@ -252,6 +257,15 @@ def appendix():
     """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
     fragments = [folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))]
     return [part for path in fragments if path.is_file() for part in (path, *sorted(path.parent.glob("*.pdf")))]
+
+
+def sensitivity_levels():
+    """The levels of the paper's table, or the coarse ones of them."""
+    return [n for n in scene("paper").levels if n <= 16 or not CONFIG["quick"]]
+
+
+def sensitivity_reference():
+    return scene("paper").truth["n"] // (4 if CONFIG["quick"] else 1)
 
 
 def digest(paths):

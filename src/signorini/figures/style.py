@@ -1,5 +1,6 @@
 """How every figure looks, and how it is written to a file."""
 
+import io
 import logging
 from pathlib import Path
 
@@ -59,7 +60,7 @@ def new_figure(width, height):
         return Figure(figsize=(width, height), layout="none")
 
 
-def save_figure(figure, path):
+def save_figure(figure, path, colours=None):
     """Write a figure as PDF or PNG (200 dpi): same figure, same bytes; never half a file.
 
     Parameters
@@ -68,6 +69,8 @@ def save_figure(figure, path):
         What to write.
     path : path-like
         Target, ending in ``.pdf`` or ``.png``; replaced in one step if it exists.
+    colours : int, optional
+        A PNG is reduced to so many: for pictures of few colours a fraction of the size.
 
     Raises
     ------
@@ -80,4 +83,15 @@ def save_figure(figure, path):
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
     with matplotlib.rc_context(STYLE), replacing(path, "wb") as stream:
-        figure.savefig(stream, format=path.suffix[1:], metadata=FORMATS[path.suffix])
+        if colours and path.suffix == ".png":
+            _save_reduced(figure, stream, colours)
+        else:
+            figure.savefig(stream, format=path.suffix[1:], metadata=FORMATS[path.suffix])
+
+
+def _save_reduced(figure, stream, colours):
+    from PIL import Image
+
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png")
+    Image.open(picture).convert("RGB").quantize(colours).save(stream, format="png", optimize=True)

@@ -55,7 +55,7 @@ class Rectangle:
     ----------
     origin, size : sequence of float
         Lower left corner and side lengths, in the user's unit of length.
-    diagonal : {"falling", "rising", "alternating", "criss-cross"}
+    diagonal : {"falling", "rising", "alternating", "alternating-rising", "criss-cross"}
         How every cell is cut.
     cells : {"per-unit", "per-side"}
         Whether level n has n cells per unit of length (h = 1/n) or n along each side.
@@ -111,8 +111,7 @@ class Rectangle:
             grid = Grid(*counts, origin, size, self.diagonal, ("neumann",) * 4)
             mesh = with_sides(NamedMesh(grid.p, grid.t, source="rectangle"))
         else:
-            pattern = {"alternating": patterns.alternating, "criss-cross": patterns.criss_cross}[self.diagonal]
-            mesh = pattern(*counts, origin, size)
+            mesh = patterns.PATTERNS[self.diagonal](*counts, origin, size)
         if self.grade is not None:
             mesh = patterns.graded(mesh, self.grade["towards"], self.grade["exponent"])
         if self.perturb is not None:

@@ -1,5 +1,7 @@
 """Rectangles cut into triangles in other patterns than `Grid`, and meshes shaken or graded for studies."""
 
+from functools import partial
+
 import numpy as np
 
 from signorini.boundary import SIDES
@@ -53,6 +55,14 @@ def criss_cross(nx, ny, origin, size):
     t = [np.concatenate([corner.ravel() for corner in ring[k:] + ring[:k]]) for k in (0, 1)]
     t = np.stack([*t, np.tile(centre.ravel(), 4)])
     return NamedMesh(np.concatenate([p, [x.ravel(), y.ravel()]], axis=1), t, _sides(numbers), source="rectangle")
+
+
+# By `domain.diagonal` of a scene.
+PATTERNS = {
+    "alternating": alternating,
+    "alternating-rising": partial(alternating, first="rising"),
+    "criss-cross": criss_cross,
+}
 
 
 def perturbed(mesh, amount, seed):

@@ -129,8 +129,8 @@ def test_a_second_run_is_refused_and_does_the_first_no_harm(small, built_small):
 
 def test_a_full_disk_leaves_no_part_of_a_file(fresh):
     """A limit on the size of files stands for the full disk."""
-    fresh.edit("config/scenes/small.yaml", "n: 16", "n: 64")
-    most = 16 * 1024
+    fresh.edit("config/scenes/small.yaml", "n: 16", "n: 128")
+    most = 64 * 1024
     limits = {"limits": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))}
     run = fresh.run(**limits, PYTHONDONTWRITEBYTECODE="1")  # which the limit would stop first
     assert run.code != 0

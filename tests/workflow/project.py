@@ -53,8 +53,8 @@ class Run:
 
     @property
     def errors(self):
-        """The lines that say what went wrong."""
-        return [line for line in self.text.splitlines() if line.startswith("error: ")]
+        """The lines that say what went wrong; two processes may write on one line."""
+        return re.findall(r"(?<!\w)error: .*", self.text)
 
     @property
     def jobs(self):

@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
+from signorini.memory import DIRECT, check_memory
 from signorini.solvers.contact import DenseContact, solve_contact
 
 _LEAF = 8
@@ -22,6 +23,7 @@ def solve_direct(problem, guess=None):
     The accuracy returned is the error that rounding of the entries of A causes on stretched or obtuse cells, which no
     residual shows.
     """
+    check_memory(problem.mesh.number_of_triangles, DIRECT[problem.element], "a mesh for solver.method direct")
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
     if not problem.free.size:
@@ -101,7 +103,7 @@ class Condensed:
         if np.any(self.factors.U.diagonal() <= _SINGULAR * (A.diagonal() + shift)):
             raise SolverError(
                 "singular stiffness matrix: a part of the body is loose, or its triangles are too stretched; "
-                "join it to a dirichlet or contact part, or choose other cell shapes"
+                "join it to a dirichlet or contact part of the boundary, or choose other cell shapes"
             )
         self.S_shifted = self._trailing_block()
         self.S = self.S_shifted - np.diag(shift[on_contact])

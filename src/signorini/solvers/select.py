@@ -38,8 +38,8 @@ def solve(problem, method="auto", guess=None):
     Raises
     ------
     SolverError
-        If the data are not finite, the problem has no or no unique solution, the method is unknown or does not
-        apply, or the KKT residual of the result exceeds 1e-6.
+        If the data or the solution are not finite, the problem has no or no unique solution, the method is unknown or
+        does not apply, or the KKT residual of the result exceeds 1e-6.
 
     Examples
     --------
@@ -66,10 +66,14 @@ def solve(problem, method="auto", guess=None):
             f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
             "look for extreme cell shapes or try another solver.method"
         )
-    multiplier = np.where(active, np.maximum(multiplier, 0.0), 0.0)
+    with np.errstate(over="ignore"):
+        u = np.ldexp(u, exponent)
+        multiplier = np.ldexp(np.where(active, np.maximum(multiplier, 0.0), 0.0), exponent)
+    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
+        raise SolverError("data: the solution exceeds the largest number, 1.8e308; scale the data down")
     return Solution(
-        u=np.ldexp(u, exponent),
-        multiplier=np.ldexp(multiplier, exponent),
+        u=u,
+        multiplier=multiplier,
         active=active,
         residual=residual,
         accuracy=accuracy,
@@ -112,12 +116,13 @@ def _check_solvable(problem):
         raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
     if abs(total) <= rounding:
         raise SolverError(
-            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; add a dirichlet part"
+            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; "
+            "add a dirichlet part to the boundary"
         )
     if total > 0.0:
         raise SolverError(
             f"unbounded: no dirichlet part and int f + int g = {total:.3e} > 0 lifts u off the obstacle without end; "
-            "add a dirichlet part or a load with negative mean"
+            "add a dirichlet part to the boundary, or a load with negative mean"
         )
 
 

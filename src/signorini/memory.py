@@ -1,0 +1,47 @@
+"""Memory that a level needs, predicted before the work: a job that is killed says nothing."""
+
+import os
+
+from signorini.exceptions import MeshError
+
+# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: a grid with its load, discretised and
+# solved by the fourier route; any other mesh, discretised; and solved by the direct route.
+GRID, MESH, DIRECT = 30, 350, {"P1": 1300, "CR": 2200}
+_MOST = 2**30  # triangles whose facets 32 bits can number
+
+
+def check_memory(triangles, bytes_each, what):
+    """Refuse a number of triangles that this machine cannot hold.
+
+    Parameters
+    ----------
+    triangles : int
+    bytes_each : int
+        Memory that each needs at least.
+    what : str
+        What needs it, for the message.
+
+    Raises
+    ------
+    MeshError
+        If there is less memory, in the machine or allowed to this process.
+    """
+    needed, given = triangles * bytes_each, _memory()
+    if needed > given or triangles > _MOST:
+        raise MeshError(
+            f"levels: {what} has {triangles:.2g} triangles and needs at least {needed / 1e9:.2g} GB of memory, of "
+            f"{given / 1e9:.2g} GB here; choose smaller levels, or on a rectangle domain.cells: per-side"
+        )
+
+
+def _memory():
+    """Bytes of memory that this process may use; infinite where the system does not tell."""
+    limits = [float("inf")]
+    if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+        limits.append(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    try:
+        import resource
+    except ImportError:  # Windows
+        return min(limits)
+    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return min([*limits, *[soft] * (soft != resource.RLIM_INFINITY)])

@@ -1,0 +1,55 @@
+"""A level that this machine cannot hold is refused before the work."""
+
+import pytest
+
+from builders import grid, statement
+from signorini import memory
+from signorini.exceptions import MeshError
+from signorini.mesh import make_domain
+from signorini.problem import discretize_on
+from signorini.solvers import solve
+
+SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
+
+
+@pytest.mark.parametrize("size", [[1e9, 1e3], [1e9, 1e9], [1e300, 1]])
+def test_case_10_a_level_beyond_all_memory_is_refused_with_a_prediction(size):
+    domain = make_domain(SQUARE | {"size": size}, SIDES, 4)
+    with pytest.raises(MeshError, match=r"levels: n = 4 .* triangles and needs at least .* GB of memory|extends over"):
+        domain.level(4)
+
+
+@pytest.mark.parametrize(
+    ("domain", "boundary", "fits", "not_any_more"),
+    [
+        (SQUARE, SIDES, 32, 64),
+        (SQUARE | {"diagonal": "criss-cross"}, SIDES, 4, 16),
+        (TRIANGLE, {"side-0": "contact", "side-1": "neumann", "side-2": "dirichlet"}, 4, 16),
+    ],
+    ids=["grid", "pattern", "polygon"],
+)
+def test_the_prediction_is_made_for_every_kind_of_mesh(monkeypatch, domain, boundary, fits, not_any_more):
+    """As on a machine with 0.1 MB: a grid takes 30 bytes per triangle, other meshes 350."""
+    monkeypatch.setattr(memory, "_memory", lambda: 1e5)
+    made = make_domain(domain, boundary, 2)
+    assert made.level(fits).number_of_triangles > 0
+    with pytest.raises(MeshError, match=f"levels: n = {not_any_more} has .* of 0.0001 GB here; choose smaller levels"):
+        made.level(not_any_more)
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_the_direct_route_predicts_its_factorisation(monkeypatch, element):
+    problem = discretize_on(grid(16), element, statement(f=1))
+    monkeypatch.setattr(memory, "_memory", lambda: 5e5)
+    assert solve(problem, "fourier").status == "solved"
+    with pytest.raises(MeshError, match="levels: a mesh for solver.method direct has 5.1e\\+02 triangles and needs"):
+        solve(problem, "direct")
+
+
+def test_memory_is_known_and_bounded_by_the_limit_of_the_process(monkeypatch):
+    resource = pytest.importorskip("resource")
+    assert 2**20 < memory._memory() < float("inf")
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (2**20, resource.RLIM_INFINITY))
+    assert memory._memory() == 2**20

@@ -99,7 +99,9 @@ class Condensed:
                 "singular stiffness matrix: without contact, part of the boundary must be dirichlet"
             ) from error
         if np.any(self.factors.perm_r != np.arange(A.shape[0])):
-            raise SolverError("stiffness matrix is not positive definite: is the mesh degenerate?")
+            raise SolverError(
+                "domain: the stiffness matrix is not positive definite; choose cells that are less stretched"
+            )
         if np.any(self.factors.U.diagonal() <= _SINGULAR * (A.diagonal() + shift)):
             raise SolverError(
                 "singular stiffness matrix: a part of the body is loose, or its triangles are too stretched; "

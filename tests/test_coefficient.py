@@ -96,11 +96,15 @@ REFUSED = {
         r"triangle \d+ at \(.*\) is in hard and 6 at once; name one",
     ),
     "empty": ("{}", MeshError, r"has no coefficient; add a number for soft or 5"),
-    "zero": ("{soft: 2, hard: 0}", SceneError, r"data.coefficient.hard: 0 is not valid; it must be positive"),
-    "negative": ("{soft: -2.5, hard: 1}", SceneError, r"data.coefficient.soft: -2.5 is not valid; it must be positive"),
+    "zero": ("{soft: 2, hard: 0}", SceneError, r"data.coefficient.hard: 0 is not valid; it must be from 1e-100 to 1e"),
+    "negative": (
+        "{soft: -2.5, hard: 1}",
+        SceneError,
+        r"data.coefficient.soft: -2.5 is not valid; it must be from 1e-100 to 1e",
+    ),
     "text": ("{soft: 2*x, hard: 1}", SceneError, r'data.coefficient.soft: "2\*x" is not valid; expected a number'),
     "list": ("[1, 2]", SceneError, r"data.coefficient: \[1, 2\] is not valid; expected a number or text or a section"),
-    "formula": ("x - 1", FormulaError, r"data.coefficient: x - 1 is -.* at \(.*\); it must be positive"),
+    "formula": ("x - 1", FormulaError, r"data.coefficient: x - 1 is -.* at \(.*\); it must be from 1e-100 to 1e"),
 }
 
 

@@ -1,58 +1,63 @@
-"""What a solve of a uniform grid needs: blocks of rows, and few arrays of full size."""
+"""A level that this machine cannot hold is refused before the work."""
 
-import tracemalloc
-
-import numpy as np
 import pytest
 
-from builders import DATA, grid, statement
-from signorini.elements import ELEMENTS
-from signorini.mesh import grid as grids
-from signorini.mesh.grid import SIDES
+from builders import grid, statement
+from signorini import memory
+from signorini.exceptions import MeshError
+from signorini.mesh import make_domain
 from signorini.problem import discretize_on
 from signorini.solvers import solve
 
-BOUNDARIES = {side: tuple(np.roll(["contact", "neumann", "dirichlet", "neumann"], k)) for k, side in enumerate(SIDES)}
-BOUNDARIES["held beside"] = ("contact", "dirichlet", "neumann", "dirichlet")
-SMOOTH = {"f": "30*sin(9*x + 7*y) - 2", "dirichlet": "0.1 + 0.1*x*y", "obstacle": "0.1*sin(6*x*y)"}
+SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
 
 
-@pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("diagonal", ["falling", "rising"])
-@pytest.mark.parametrize("labels", BOUNDARIES.values(), ids=BOUNDARIES)
-@pytest.mark.parametrize("cells", [1, 20])
-def test_blocks_of_any_size_give_the_same_to_rounding(monkeypatch, cells, labels, diagonal, element):
-    def solution():
-        problem = discretize_on(grid(7, 6, labels, diagonal=diagonal), element, statement(**SMOOTH))
-        return problem.b, solve(problem, "fourier")
-
-    (b, whole), _ = solution(), monkeypatch.setattr(grids, "_CELLS_AT_ONCE", cells)
-    blocked_b, blocked = solution()
-    np.testing.assert_allclose(blocked_b, b, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(blocked.u, whole.u, rtol=0, atol=1e-13)
-    assert blocked.residual < 1e-13
+@pytest.mark.parametrize("size", [[1e9, 1e3], [1e9, 1e9], [1e300, 1]])
+def test_case_10_a_level_beyond_all_memory_is_refused_with_a_prediction(size):
+    domain = make_domain(SQUARE | {"size": size}, SIDES, 4)
+    with pytest.raises(MeshError, match=r"levels: n = 4 .* triangles and needs at least .* GB of memory|extends over"):
+        domain.level(4)
 
 
-@pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("data", [DATA, SMOOTH], ids=["the paper's", "not zero on the boundary"])
-def test_peak_memory(element, data):
-    """The load, the load scaled, u, the residual, and the scale of the forces: five arrays, and what a block needs."""
-    mesh, asked = grid(512, labels=("contact", "neumann", "dirichlet", "neumann")), statement(**data)
-    tracemalloc.start()
-    try:
-        solution = solve(discretize_on(mesh, element, asked), "fourier")
-        _, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert peak / solution.u.size < 50
+@pytest.mark.parametrize(
+    ("domain", "boundary", "fits", "not_any_more"),
+    [
+        (SQUARE, SIDES, 32, 64),
+        (SQUARE | {"diagonal": "criss-cross"}, SIDES, 8, 32),
+        (TRIANGLE, {"side-0": "contact", "side-1": "neumann", "side-2": "dirichlet"}, 8, 64),
+    ],
+    ids=["grid", "pattern", "polygon"],
+)
+def test_the_prediction_is_made_for_every_kind_of_mesh(monkeypatch, domain, boundary, fits, not_any_more):
+    """As on a machine with 0.1 MB: a grid takes 30 bytes per triangle, other meshes 100."""
+    monkeypatch.setattr(memory, "_memory", lambda: 1e5)
+    made = make_domain(domain, boundary, 2)
+    assert made.level(fits).number_of_triangles > 0
+    with pytest.raises(MeshError, match=f"levels: n = {not_any_more} has .* of 0.0001 GB here; choose smaller levels"):
+        made.level(not_any_more)
 
 
-@pytest.mark.parametrize("diagonal", ["falling", "rising"])
-@pytest.mark.parametrize("shape", [(1, 1), (1, 3), (4, 1), (5, 3)])
-def test_points_edges_and_triangles_by_number_are_those_of_the_whole(shape, diagonal):
-    mesh = grid(*shape, diagonal=diagonal)
-    np.testing.assert_array_equal(mesh.points(np.arange(mesh.number_of_vertices)), mesh.p)
-    triangles = mesh.triangles(np.arange(mesh.number_of_triangles))
-    np.testing.assert_array_equal(triangles.t, mesh.t)
-    np.testing.assert_array_equal(triangles.t2f, mesh.t2f)
-    np.testing.assert_array_equal(mesh.facet_ends(np.arange(mesh.number_of_facets)), mesh.facets)
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_routes_predict_what_they_need(monkeypatch, element):
+    problem = discretize_on(grid(16), element, statement(f=1))
+    monkeypatch.setattr(memory, "_memory", lambda: 5e4)
+    assert solve(problem, "fourier").status == "solved"
+    for route in ("direct", "multigrid"):
+        with pytest.raises(MeshError, match=rf"levels: a mesh for solver\.method {route} has 5\.1e\+02 triangles and"):
+            solve(problem, route)
+
+
+def test_auto_takes_a_factorisation_only_where_it_fits(monkeypatch):
+    problem = discretize_on(grid(150, labels=("contact",) * 4, size=(1.0, 0.01)), "P1", statement(f=-1, obstacle=-1))
+    assert solve(problem).method == "direct"
+    monkeypatch.setattr(memory, "_memory", lambda: 1e7)
+    assert solve(problem).method == "multigrid"
+
+
+def test_memory_is_known_and_bounded_by_the_limit_of_the_process(monkeypatch):
+    resource = pytest.importorskip("resource")
+    assert 2**20 < memory._memory() < float("inf")
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (2**20, resource.RLIM_INFINITY))
+    assert memory._memory() == 2**20

@@ -4,7 +4,7 @@ import numpy as np
 
 from signorini.exceptions import FormulaError, MeshError
 from signorini.schema import nearest
-from signorini.statement import BySubdomain
+from signorini.statement import COEFFICIENTS, BySubdomain
 
 
 def coefficient_on(mesh, coefficient):
@@ -23,7 +23,7 @@ def coefficient_on(mesh, coefficient):
     Raises
     ------
     FormulaError
-        If the formula is not positive at a centroid.
+        If the formula's value at a centroid is not one of `COEFFICIENTS`: positive, and not extreme.
     MeshError
         If the mesh has no subdomain of a name, or a triangle is in none that is named, or in two.
     """
@@ -39,10 +39,13 @@ def coefficient_on(mesh, coefficient):
 def _at_centroids(mesh, formula):
     x, y = mesh.p[:, mesh.t].mean(axis=1)
     values = formula(x, y)
-    if not np.all(values > 0.0):
-        k = int(np.argmin(values))
+    low, high = COEFFICIENTS
+    wrong = (values < low) | (values > high)
+    if wrong.any():
+        k = int(np.argmax(wrong))
         raise FormulaError(
-            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be positive"
+            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be from {low:g} to "
+            f"{high:g}"
         )
     return values
 

@@ -67,7 +67,7 @@ def contact_line(mesh, solution):
         other contact part the arc length; ``contact_u`` and ``contact_obstacle`` (nc,); ``critical_points`` (k, 2),
         between neighbouring nodes of which one binds: known to half a mesh width.
     """
-    line = _ordered(mesh, solution)
+    line = _ordered(mesh, solution.element, solution.contact, solution.active)
     return {
         "contact_x": _position(line),
         "contact_u": solution.u[solution.contact][line.which],
@@ -100,7 +100,7 @@ def contact_rows(mesh, solution):
         ``binding``, 1 or 0; ``critical``, the arc length of the critical point between this row and the next of its
         component (in a closed one the first follows the last), or None. Empty without contact part.
     """
-    line = _ordered(mesh, solution)
+    line = _ordered(mesh, solution.element, solution.contact, solution.active)
     flux = contact_flux(mesh, solution.element, solution.contact, solution.multiplier)
     columns = {
         "component": line.component,
@@ -171,25 +171,33 @@ def binding_pieces(mesh, solution):
     return np.concatenate(pieces)
 
 
-def _ordered(mesh, solution):
-    """The `ContactLine` of a solution."""
-    position = np.full(find_element(solution.element).size(mesh), -1)
-    position[solution.contact] = np.arange(solution.contact.size)
+def critical_points(mesh, element, contact, active):
+    """The critical points of a solution, where of two neighbouring contact dofs one binds: midway, shape (2, k).
+
+    `contact` are the contact dofs of the `element`, `active` says which of them bind.
+    """
+    return _ordered(mesh, element, contact, active).critical_points
+
+
+def _ordered(mesh, element, contact, active):
+    """The `ContactLine` of a solution, by its contact dofs and which of them bind."""
+    position = np.full(find_element(element).size(mesh), -1)
+    position[contact] = np.arange(contact.size)
     start, parts = 0.0, [_NOTHING]
     for component, path in enumerate(boundary_paths(mesh, "contact"), start=1):
-        parts.append(_ordered_path(path, solution, position, component, start))
+        parts.append(_ordered_path(path, element, active, position, component, start))
         start += path.arc_length[-1]
     return ContactLine(*(np.concatenate(arrays, axis=-1) for arrays in zip(*parts, strict=True)))
 
 
-def _ordered_path(path, solution, position, component, start):
+def _ordered_path(path, element, active, position, component, start):
     """The fields of a `ContactLine` for the dofs of one path, which starts at arc length `start`."""
-    kind, first = _PLACES[solution.element]
+    kind, first = _PLACES[element]
     s, marks = start + path.arc_length, path.marks
     at = np.arange(first, s.size - path.closed, 2)
     which = position[getattr(path, kind)[at // 2]]
     known = which >= 0
-    binds = np.append(solution.active, False)[which]
+    binds = np.append(active, False)[which]
     turns = known & np.roll(known, -1) & (binds != np.roll(binds, -1))
     turns[-1] &= path.closed
     between = at[turns] + 1

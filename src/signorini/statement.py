@@ -6,6 +6,8 @@ from functools import cached_property
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 
+COEFFICIENTS = (1e-100, 1e100)  # the least and the greatest: products with data then neither under- nor overflow
+
 
 @dataclass(frozen=True)
 class BySubdomain:
@@ -21,16 +23,17 @@ class BySubdomain:
     Raises
     ------
     SceneError
-        If a number is not positive.
+        If a number is not one of `COEFFICIENTS`.
     """
 
     numbers: dict
     field: str
 
     def __post_init__(self):
+        low, high = COEFFICIENTS
         for name, number in self.numbers.items():
-            if not 0.0 < number < float("inf"):
-                raise SceneError(f"{self.field}.{name}: {number} is not valid; it must be positive and finite")
+            if not low <= number <= high:
+                raise SceneError(f"{self.field}.{name}: {number} is not valid; it must be from {low:g} to {high:g}")
 
 
 @dataclass(frozen=True)

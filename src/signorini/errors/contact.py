@@ -1,10 +1,10 @@
 """Errors on the contact side: of the trace, of the multiplier, and of the critical points."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
+from signorini.contact_line import contact_flux, critical_points
 from signorini.elements import element as find_element
 from signorini.errors.graded import graded, root, square, times_to_cut
 from signorini.exact.sides import find_side
@@ -28,10 +28,9 @@ def contact_errors(mesh, element, solution, exact):
     -------
     dict
         ``trace_l2``: L2 norm of u - u_h, for CR of the trace from inside; unit of u times sqrt(length).
-        ``multiplier_l2``: L2 norm of du/dnu - lambda_h; unit of u per sqrt(length). lambda_h is constant on cells: for
-        CR lambda_e/\\|e\\| on each edge e; for P1 lambda_i/m_i on the nearer halves of the edges that meet at vertex i,
-        m_i being their length (the lumped mass). The cells of Dirichlet vertices, which have no multiplier, are
-        left out.
+        ``multiplier_l2``: L2 norm of du/dnu - lambda_h; unit of u per sqrt(length). lambda_h is constant on cells:
+        for CR on each facet, for P1 on the nearer halves of those that meet at a vertex; see `contact_flux`. The cells
+        of Dirichlet vertices, which have no multiplier, are left out.
         ``critical_points``: Hausdorff distance between the exact critical points on the contact side and those of
         the discrete solution, known to half a mesh width; unit of length. Infinite where only one of the two has
         any, None where the exact solution names none.
@@ -44,57 +43,33 @@ def contact_errors(mesh, element, solution, exact):
     kind = find_element(element)
     side = find_side(mesh, "contact")
     dofs = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), kind.boundary_dofs(mesh, "dirichlet"))
-    contact = _LINES[element](side, dofs, solution)
+    cells, place, normal = _CELLS[element](side, dofs)
+    density = np.tile(contact_flux(mesh, element, dofs, solution.multiplier)[place], (2, 1))
     u = kind.vertex_values(mesh, solution.u)[side.local, side.triangles]
+    found = critical_points(mesh, element, dofs, solution.active)
     return {
         "trace_l2": _distance(exact.value, side.ends, u, exact.singular_points),
-        "multiplier_l2": _distance(exact.flux, contact.cells, contact.density, exact.singular_points, contact.normal),
-        "critical_points": _hausdorff(_on(side, exact.critical_points), contact.critical_points),
+        "multiplier_l2": _distance(exact.flux, cells, density, exact.singular_points, normal),
+        "critical_points": _hausdorff(_on(side, exact.critical_points), found),
     }
 
 
-class _Line(NamedTuple):
-    """The multiplier as a density that is constant on cells, and where the contact set ends.
-
-    Attributes
-    ----------
-    cells : ndarray, shape (2, 2, m)
-        Axis, end, cell.
-    density, normal : ndarray, shapes (2, m) at both ends, and (2, m)
-    critical_points : ndarray, shape (2, k)
-    """
-
-    cells: np.ndarray
-    density: np.ndarray
-    normal: np.ndarray
-    critical_points: np.ndarray
+def _facets(side, dofs):
+    """CR: each facet is a cell of its own dof."""
+    return side.ends, np.searchsorted(dofs, side.facets), side.normal
 
 
-def _edges(side, dofs, solution):
-    """CR: each edge is a cell; the contact set ends at vertices between an active edge and another."""
-    place = np.searchsorted(dofs, side.facets)
-    density = solution.multiplier[place] / side.length
-    first, inverse = np.unique(side.vertices, return_index=True, return_inverse=True)[1:]
-    active = np.tile(solution.active[place], 2)
-    ends = [np.bincount(inverse.ravel()[active == kind], minlength=first.size) > 0 for kind in (False, True)]
-    critical = side.ends.reshape(2, -1)[:, first[ends[0] & ends[1]]]
-    return _Line(side.ends, np.stack([density, density]), side.normal, critical)
-
-
-def _halves(side, dofs, solution):
-    """P1: each half of an edge belongs to the cell of its vertex; the contact set ends amid edges."""
+def _halves(side, dofs):
+    """P1: each half of a facet belongs to the cell of its vertex."""
     place = np.searchsorted(dofs, side.vertices)
     known = np.append(dofs, -1)[place] == side.vertices
-    mass = np.bincount(side.vertices.ravel(), np.tile(0.5 * side.length, 2))[side.vertices]
-    middle = side.ends.mean(axis=1)
-    cells = np.stack([side.ends, np.broadcast_to(middle[:, None], side.ends.shape)], axis=1)[:, :, known]
-    density = solution.multiplier[place[known]] / mass[known]
-    normal = np.broadcast_to(side.normal[:, None], side.ends.shape)[:, known]
-    active = np.append(solution.active, False)[place]
-    return _Line(cells, np.stack([density, density]), normal, middle[:, known.all(axis=0) & (active[0] != active[1])])
+    middle = np.broadcast_to(side.ends.mean(axis=1)[:, None], side.ends.shape)
+    normal = np.broadcast_to(side.normal[:, None], side.ends.shape)
+    return np.stack([side.ends, middle], axis=1)[:, :, known], place[known], normal[:, known]
 
 
-_LINES = {"P1": _halves, "CR": _edges}
+# The cells on which the multiplier is a constant density: axis, end, cell; the dof of each, and its normal.
+_CELLS = {"P1": _halves, "CR": _facets}
 
 
 def _distance(function, cells, values, singular_points, normal=None):

@@ -7,6 +7,7 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.outline import cross, outline_defect
 
+EXTENTS = (1e-100, 1e100)  # of a domain: areas, and their products with data, then neither under- nor overflow
 # A cell must span this many units in the last place of its coordinates, so that areas hold four digits or more.
 RESOLVED = 2.0**16
 # Twice the area over the square of the diameter below which a triangle of the scaled mesh is flat.
@@ -72,8 +73,11 @@ def check_resolution(lower, upper, spacing, source="mesh"):
     Raises
     ------
     MeshError
-        If a cell spans fewer than 2**16 neighbouring floating-point numbers.
+        If a cell spans fewer than 2**16 neighbouring floating-point numbers, or the box is not of a size in `EXTENTS`.
     """
+    extent = float(np.max(np.subtract(upper, lower)))
+    if not EXTENTS[0] <= extent <= EXTENTS[1]:
+        raise MeshError(f"{source}: extends over {extent:.3g}; choose a unit of length in which it is not as extreme")
     step = np.spacing(np.maximum(np.abs(lower), np.abs(upper)))
     for axis, h, ulp, far in zip("xy", spacing, step, np.maximum(np.abs(lower), np.abs(upper)), strict=True):
         if not h >= RESOLVED * ulp:

@@ -5,6 +5,7 @@ once, its root, and every level is a uniform refinement of it.
 """
 
 import json
+import math
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from signorini.boundary import LABELS, SIDES, by_formula
 from signorini.exceptions import MeshError
+from signorini.memory import GRID, MESH, check_memory
 from signorini.mesh.grid import CORNERS, Grid
 from signorini.storage import read_npz, write_npz
 
@@ -95,15 +97,28 @@ class Rectangle:
         return round(counts[0]), round(counts[1])
 
     def level(self, n):
-        """The triangulation of level n: a `Grid` where arithmetic describes it, else a `Triangulation`."""
+        """The triangulation of level n: a `Grid` where arithmetic describes it, else a `Triangulation`.
+
+        Raises
+        ------
+        MeshError
+            If a side is not a whole number of cells, or the level is beyond the coordinates' resolution or the memory.
+        """
         from signorini.mesh.check import check_resolution
 
         counts, origin, size = self.counts(n), tuple(map(float, self.origin)), tuple(map(float, self.size))
         upper = [a + b for a, b in zip(origin, size, strict=True)]
         check_resolution(origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain")
         plain = self.diagonal in CORNERS and not by_formula(self.boundary)
-        if plain and self.grade is None and self.perturb is None:
+        plain = plain and self.grade is None and self.perturb is None
+        triangles = math.prod(counts) * (4 if self.diagonal == "criss-cross" else 2)
+        check_memory(triangles, GRID if plain else MESH, f"n = {n}")
+        if plain:
             return Grid(*counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES))
+        return self._cut(counts, origin, size)
+
+    def _cut(self, counts, origin, size):
+        """The triangulation that is no `Grid`."""
         from signorini.mesh import patterns
         from signorini.mesh.labels import NamedMesh, labelled, with_sides
 
@@ -159,6 +174,7 @@ class Refined:
         if rest or ratio < 1 or ratio & (ratio - 1):
             raise MeshError(f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it")
         if n not in self._levels:
+            check_memory(ratio**2 * self.root.number_of_triangles, MESH, f"n = {n}")
             self._levels[n] = self._refined(self.level(n // 2))
         return self._levels[n]
 

@@ -132,7 +132,9 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     shift = -int(np.max((np.frexp(q)[1] - np.frexp(weight)[1])[q != 0], initial=-2000))
     load = np.ldexp(q, shift)
     if singular and np.sum(load) >= 0:
-        raise SolverError("no unique solution: without a Dirichlet side, sum(q) must be negative")
+        raise SolverError(
+            "no unique solution: without a dirichlet part of the boundary sum(q), the load left, must be negative"
+        )
     w, *cost = _pivot(operator, load, weight, active, max_iterations, singular)
     rate = operator.apply(w) - load
     size = np.max([w * weight, np.abs(load) / weight], initial=np.finfo(float).tiny)

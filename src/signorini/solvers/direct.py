@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
+from signorini.memory import DIRECT, check_memory
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.count import count
 
@@ -23,6 +24,7 @@ def solve_direct(problem, guess=None):
     The accuracy returned is the error that rounding of the entries of A causes on stretched or obtuse cells, which no
     residual shows.
     """
+    check_memory(problem.mesh.number_of_triangles, DIRECT[problem.element], "a mesh for solver.method direct")
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
     if not problem.free.size:
@@ -105,11 +107,13 @@ class Condensed:
                 "singular stiffness matrix: without contact, part of the boundary must be dirichlet"
             ) from error
         if np.any(self.factors.perm_r != np.arange(A.shape[0])):
-            raise SolverError("stiffness matrix is not positive definite: is the mesh degenerate?")
+            raise SolverError(
+                "domain: the stiffness matrix is not positive definite; choose cells that are less stretched"
+            )
         if np.any(self.factors.U.diagonal() <= _SINGULAR * (A.diagonal() + shift)):
             raise SolverError(
                 "singular stiffness matrix: a part of the body is loose, or its triangles are too stretched; "
-                "join it to a dirichlet or contact part, or choose other cell shapes"
+                "join it to a dirichlet or contact part of the boundary, or choose other cell shapes"
             )
         self.S_shifted = self._trailing_block()
         self.S = self.S_shifted - np.diag(shift[on_contact])

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.memory import MULTIGRID, check_memory
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
 from signorini.solvers.hierarchy import HALF, Cycle, build_hierarchy
@@ -31,6 +32,7 @@ def solve_multigrid(problem, guess=None):
     The accuracy returned is the error that rounding of the entries of A causes on stretched or obtuse cells, as on the
     direct route.
     """
+    check_memory(problem.mesh.number_of_triangles, MULTIGRID[problem.element], "a mesh for solver.method multigrid")
     levels = build_hierarchy(problem)
     obstacles = [Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)]
     for level in levels[:-1]:

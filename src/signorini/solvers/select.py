@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.memory import DIRECT, fits
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
@@ -18,7 +19,6 @@ METHODS = {
 
 
 _FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
-_MANY = 2_000_000  # dofs beyond which a factorisation takes several GB
 _TOUCHING = 2.0**-44  # of max |u|: above the round-off of every route, below any gap that the mesh resolves
 
 
@@ -41,8 +41,8 @@ def solve(problem, method="auto", guess=None):
     Raises
     ------
     SolverError
-        If the data are not finite, the problem has no or no unique solution, the method is unknown or does not
-        apply, or the KKT residual of the result exceeds 1e-6.
+        If the data or the solution are not finite, the problem has no or no unique solution, the method is unknown or
+        does not apply, or the KKT residual of the result exceeds 1e-6.
 
     Examples
     --------
@@ -71,10 +71,14 @@ def solve(problem, method="auto", guess=None):
             f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
             "look for extreme cell shapes or try another solver.method"
         )
-    multiplier = np.where(active, np.maximum(multiplier, 0.0), 0.0)
+    with np.errstate(over="ignore"):
+        u = np.ldexp(u, exponent, out=u)
+        multiplier = np.ldexp(np.where(active, np.maximum(multiplier, 0.0), 0.0), exponent)
+    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
+        raise SolverError("data: the solution exceeds the largest number, 1.8e308; scale the data down")
     return Solution(
-        u=np.ldexp(u, exponent, out=u),
-        multiplier=np.ldexp(multiplier, exponent),
+        u=u,
+        multiplier=multiplier,
         active=active,
         residual=residual,
         accuracy=accuracy,
@@ -106,7 +110,7 @@ def _choose(problem, method):
 
     if is_nested(problem.mesh):
         return "multigrid", f"{why_not}, but refined"
-    if problem.b.size <= _MANY:
+    if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
         return "direct", f"{why_not}, and not refined or of stretched cells"
     return "multigrid", f"{why_not}, and too large for a factorisation"
 
@@ -135,12 +139,13 @@ def _check_solvable(problem):
         raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
     if abs(total) <= rounding:
         raise SolverError(
-            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; add a dirichlet part"
+            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; "
+            "add a dirichlet part to the boundary"
         )
     if total > 0.0:
         raise SolverError(
             f"unbounded: no dirichlet part and int f + int g = {total:.3e} > 0 lifts u off the obstacle without end; "
-            "add a dirichlet part or a load with negative mean"
+            "add a dirichlet part to the boundary, or a load with negative mean"
         )
 
 

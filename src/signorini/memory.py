@@ -1,0 +1,52 @@
+"""Memory that a level needs, predicted before the work: a job that is killed says nothing."""
+
+import os
+
+from signorini.exceptions import MeshError
+
+# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: a grid with its load, discretised and
+# solved by the fourier route; any other mesh, discretised; and solved by the other routes.
+GRID, MESH, DIRECT, MULTIGRID = 30, 100, {"P1": 1100, "CR": 1800}, {"P1": 130, "CR": 400}
+_MOST = 2**30  # triangles whose facets 32 bits can number
+
+
+def check_memory(triangles, bytes_each, what):
+    """Refuse a number of triangles that this machine cannot hold.
+
+    Parameters
+    ----------
+    triangles : int
+    bytes_each : int
+        Memory that each needs at least.
+    what : str
+        What needs it, for the message.
+
+    Raises
+    ------
+    MeshError
+        If there is less memory, in the machine or allowed to this process.
+    """
+    needed, given = triangles * bytes_each, _memory()
+    if not fits(triangles, bytes_each):
+        raise MeshError(
+            f"levels: {what} has {triangles:.2g} triangles and needs at least {needed / 1e9:.2g} GB of memory, of "
+            f"{given / 1e9:.2g} GB here; choose smaller levels, or on a rectangle domain.cells: per-side"
+        )
+
+
+def fits(triangles, bytes_each):
+    """Whether this machine can hold a number of triangles, each of which needs some bytes."""
+    return triangles * bytes_each <= _memory() and triangles <= _MOST
+
+
+def _memory():
+    """Bytes of memory that this process may use; infinite where the system does not tell."""
+    limits = [float("inf")]
+    if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+        limits.append(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    try:
+        import resource
+    except ImportError:  # Windows
+        return min(limits)
+    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return min([*limits, *[soft] * (soft != resource.RLIM_INFINITY)])

@@ -1,6 +1,6 @@
 """How time and memory grow with the number of unknowns: the paper's problem, discretised and solved, by each route.
 
-    python benchmarks/growth.py [--routes fourier,direct] [--elements P1,CR] [--sizes 128,256,512,1024,2048] [--repeats 3]
+    python benchmarks/growth.py [--routes fourier,direct] [--elements P1,CR] [--sizes 128,256,512] [--repeats 3]
 
 Each size is a process of its own. It solves a small problem first, so that imports do not count; then it discretises
 and solves `repeats` times. The table lists the median of the seconds, and what the process needed at its peak beyond

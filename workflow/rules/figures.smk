@@ -12,7 +12,6 @@ rule surface:
         "results/{scene}/logs/surface.log",
     benchmark:
         "results/{scene}/benchmarks/surface.tsv"
-    priority: 9
     shell:
         "python3 workflow/scripts/surface.py --mesh {input.mesh:q} --reference {input.reference:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -27,7 +26,6 @@ rule figure_surface:
         png=report("results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"),
     log:
         "results/{scene}/logs/figure_surface.log",
-    priority: 7
     shell:
         "python3 workflow/scripts/figure_surface.py --surface {input.surface:q} {output:q} 2>&1 | tee {log:q}"
 

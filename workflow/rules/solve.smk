@@ -1,4 +1,5 @@
 # One job per element and level, and one for the reference: each discretises, solves, and stores u with its proof.
+# Priorities follow the longest chain, from the reference by errors and rates to their figures.
 
 
 rule solve:
@@ -11,6 +12,7 @@ rule solve:
         "results/{scene}/logs/solve/{element}_n{n}.log",
     benchmark:
         "results/{scene}/benchmarks/solve/{element}_n{n}.tsv"
+    priority: 9
     params:
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],

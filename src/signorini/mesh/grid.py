@@ -119,15 +119,20 @@ class Grid:
         return rows[j : j + self.ny, i : i + self.nx]
 
     @cached_property
-    def _positions(self):
-        """Where the edges leaving a vertex row stand in it: horizontal, vertical, diagonal."""
-        i = np.arange(self.nx + 1)
+    def _places(self):
+        """Where the horizontal, vertical and diagonal edges leaving a vertex row stand in it: pairs (places, edges)."""
+        end = 3 * self.nx
+        v = (slice(1, end, 3), slice(0, -1)), (slice(end, None), slice(-1, None))
         if self.diagonal == "rising":
-            return 3 * i[:-1], 3 * i + np.where(i < self.nx, 1, 0), 3 * i[:-1] + 2
-        h = np.maximum(3 * i - 1, 0)[:-1]
-        v = 3 * i + np.where(i < self.nx, 1, 0)
-        d = 3 * i[1:] - np.where(i[1:] == self.nx, 1, 0)
-        return h, v, d
+            return ((slice(0, end, 3), slice(None)),), v, ((slice(2, end, 3), slice(None)),)
+        h = (slice(0, 1), slice(0, 1)), (slice(2, end - 1, 3), slice(1, None))
+        return h, v, ((slice(3, end, 3), slice(0, -1)), (slice(end - 1, end), slice(-1, None)))
+
+    @cached_property
+    def _positions(self):
+        """The same as numbers: of each horizontal, vertical, diagonal edge."""
+        row = np.arange(3 * self.nx + 1, dtype=np.int32)
+        return tuple(np.concatenate([row[places] for places, _ in pairs]) for pairs in self._places)
 
     def row_blocks(self):
         """Ranges (first, last) of rows of cells, some `_CELLS_AT_ONCE` in each, so that temporaries stay in a cache."""
@@ -153,28 +158,37 @@ class Grid:
         horizontal, vertical, diagonal : ndarray
             Shapes (m + 1, nx), (m, nx + 1) and (m, nx).
         """
+        last = self.ny if last is None else last
         rows, top = self._edge_rows(u)
-        h, v, d = self._positions
-        part, above = rows[first:last], rows[last, h] if last is not None and last < self.ny else top
-        return np.concatenate([part[:, h], above[None]]), part[:, v], part[:, d]
+        shapes = (last - first + 1, self.nx), (last - first, self.nx + 1), (last - first, self.nx)
+        edges = tuple(np.empty(shape, dtype=u.dtype) for shape in shapes)
+        for pairs, values in zip(self._places, edges, strict=True):
+            part = rows[first : first + len(values)]
+            for places, of in pairs:
+                values[: len(part), of] = part[:, places]
+        if last == self.ny:
+            edges[0][-1] = top
+        return edges
 
     def join_edges(self, horizontal, vertical, diagonal):
         """Undo `split_edges`."""
         u = np.empty(self.number_of_facets, dtype=horizontal.dtype)
         rows, top = self._edge_rows(u)
-        h, v, d = self._positions
-        rows[:, h], rows[:, v], rows[:, d], top[:] = horizontal[:-1], vertical, diagonal, horizontal[-1]
+        top[:] = horizontal[-1]
+        for pairs, values in zip(self._places, (horizontal[:-1], vertical, diagonal), strict=True):
+            for places, of in pairs:
+                rows[:, places] = values[:, of]
         return u
 
     def add_edges(self, u, first, horizontal, vertical, diagonal):
-        """Add values at the edges of some rows of cells, `first` and following, to a vector over the facets in place."""
+        """Add to a vector over the facets, in place, values at the edges of the rows of cells from `first` on."""
         rows, top = self._edge_rows(u)
-        h, v, d = self._positions
-        part, last = rows[first : first + len(diagonal)], first + len(diagonal)
-        for positions, values in ((h, horizontal[:-1]), (v, vertical), (d, diagonal)):
-            part[:, positions] += values
-        above, positions = (rows[last], h) if last < self.ny else (top, slice(None))
-        above[positions] += horizontal[-1]
+        for pairs, values in zip(self._places, (horizontal, vertical, diagonal), strict=True):
+            part = rows[first : first + len(values)]
+            for places, of in pairs:
+                part[:, places] += values[: len(part), of]
+        if first + len(diagonal) == self.ny:
+            top += horizontal[-1]
 
     def facet_ends(self, facets):
         """End vertices of facets given by their numbers, the smaller number first, shape (2, len(facets))."""
@@ -205,7 +219,7 @@ class Grid:
         j, i = np.divmod(cell, self.nx)
         offsets = np.array(self.corners, dtype=np.int32)[kind].transpose(1, 2, 0)
         t = (j + offsets[:, 1]) * (self.nx + 1) + i + offsets[:, 0]
-        h, v, d = (positions.astype(np.int32) for positions in self._positions)
+        h, v, d = self._positions
         row = 3 * self.nx + 1
         horizontal = (j + kind) * row + np.where(j + kind < self.ny, h[i], i)
         vertical = j * row + v[i + (kind if self.diagonal == "falling" else 1 - kind)]
@@ -235,7 +249,7 @@ class Grid:
 
     def side_facets(self, side):
         """Facet numbers along a side, by increasing coordinate."""
-        h, v, _ = (positions.astype(np.int32) for positions in self._positions)
+        h, v, _ = self._positions
         rows = np.arange(self.ny + 1, dtype=np.int32) * (3 * self.nx + 1)
         top = rows[-1] + np.arange(self.nx, dtype=np.int32)
         return {"bottom": h, "top": top, "left": rows[:-1] + v[0], "right": rows[:-1] + v[-1]}[side]

@@ -1,14 +1,17 @@
 """Cosine and sine transforms that diagonalise second differences along the rows of an array.
 
 Each basis is a pair (forward, backward) with backward(forward(x)) = x, by NumPy's real FFT of the even or odd
-extension: importing scipy.fft would cost more than every coarse solve.
+extension: importing scipy.fft would cost more than every coarse solve. It pays for large arrays alone, where it is
+twice as fast, and more on several cores: with the same bits on any number of them, or of OMP_NUM_THREADS.
 """
 
+import os
 from dataclasses import dataclass
 
 import numpy as np
 
 _VALUES_AT_ONCE = 2**15
+_LARGE = 2**23  # values for which importing SciPy pays
 
 
 @dataclass(frozen=True)
@@ -40,9 +43,14 @@ def vertex_cosines(n):
     """DCT-I on n + 1 vertices: zero flux at both end vertices."""
     mass = np.ones(n + 1)
     mass[[0, -1]] = 0.5
-    forward = _by_rows(lambda x: np.fft.rfft(np.concatenate([x, x[:, -2:0:-1]], axis=1)).real)
-    backward = _by_rows(lambda c: np.fft.irfft(c, 2 * n)[:, : n + 1])
-    return Basis(forward, backward, _second_difference(np.arange(n + 1), n), mass)
+
+    def forward(x):
+        return np.fft.rfft(np.concatenate([x, x[:, -2:0:-1]], axis=1)).real
+
+    def backward(c):
+        return np.fft.irfft(c, 2 * n)[:, : n + 1]
+
+    return Basis(*_by_rows(forward, backward, "dct", 1), _second_difference(np.arange(n + 1), n), mass)
 
 
 def vertex_sines(n):
@@ -56,7 +64,7 @@ def vertex_sines(n):
         zero = np.zeros((c.shape[0], 1))
         return np.fft.irfft(-1j * np.concatenate([zero, c, zero], axis=1), 2 * n)[:, 1:n]
 
-    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(np.arange(1, n), n), np.ones(n - 1))
+    return Basis(*_by_rows(forward, backward, "dst", 1), _second_difference(np.arange(1, n), n), np.ones(n - 1))
 
 
 def midpoint_cosines(n):
@@ -71,7 +79,7 @@ def midpoint_cosines(n):
         padded = np.concatenate([c / turn, np.zeros((c.shape[0], 1))], axis=1)
         return np.fft.irfft(padded, 2 * n)[:, :n]
 
-    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(k, n), np.ones(n))
+    return Basis(*_by_rows(forward, backward, "dct", 2), _second_difference(k, n), np.ones(n))
 
 
 def midpoint_sines(n):
@@ -86,23 +94,36 @@ def midpoint_sines(n):
         padded = np.concatenate([np.zeros((c.shape[0], 1)), c / turn], axis=1)
         return np.fft.irfft(padded, 2 * n)[:, :n]
 
-    return Basis(_by_rows(forward), _by_rows(backward), _second_difference(k, n), np.ones(n))
+    return Basis(*_by_rows(forward, backward, "dst", 2), _second_difference(k, n), np.ones(n))
 
 
 def _second_difference(k, n):
     return 4.0 * np.sin(0.5 * np.pi * k / n) ** 2
 
 
-def _by_rows(transform):
-    """Let a transform of (m, size) arrays take (size,) too, and long arrays a block of rows at a time."""
+def _by_rows(forward, backward, name, kind):
+    """Let transforms of (m, size) arrays take (size,) too, and long arrays a block of rows at a time."""
 
-    def transformed(x, out=None):
-        rows = np.atleast_2d(x)
-        result = np.empty_like(rows) if out is None else out
-        step = max(_VALUES_AT_ONCE // rows.shape[1], 1)
-        for start in range(0, rows.shape[0], step):
-            block = slice(start, start + step)
-            result[block] = transform(rows[block])
-        return result.reshape(x.shape)
+    def blockwise(transform, scipy_name):
+        def transformed(x, out=None):
+            rows = np.atleast_2d(x)
+            result = np.empty_like(rows) if out is None else out
+            large = rows.size >= _LARGE
+            at_once = _scipy(scipy_name, kind) if large else transform
+            step = max((_LARGE // 8 if large else _VALUES_AT_ONCE) // rows.shape[1], 1)
+            for start in range(0, rows.shape[0], step):
+                block = slice(start, start + step)
+                result[block] = at_once(rows[block])
+            return result.reshape(x.shape)
 
-    return transformed
+        return transformed
+
+    return blockwise(forward, name), blockwise(backward, f"i{name}")
+
+
+def _scipy(name, kind):
+    import scipy.fft
+
+    asked = os.environ.get("OMP_NUM_THREADS", "").partition(",")[0]
+    workers = int(asked) if asked.isdecimal() and int(asked) else os.cpu_count()
+    return lambda rows: getattr(scipy.fft, name)(rows, kind, workers=workers)

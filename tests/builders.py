@@ -1,4 +1,4 @@
-"""Small statements, meshes and oracles shared by the tests."""
+"""Small statements and meshes shared by the tests."""
 
 import numpy as np
 from scipy.spatial import Delaunay
@@ -88,21 +88,3 @@ def gap(problem, u):
 def energy(problem, u):
     """The functional that the solution minimises."""
     return 0.5 * u @ (problem.A @ u) - problem.b @ u
-
-
-def evaluate(mesh, name, u, x, y):
-    """A discrete function and its gradient at points, by looking every point up in every triangle."""
-    (ax, ay), (bx, by), (cx, cy) = (mesh.p[:, v][:, :, None] for v in mesh.t)
-    twice_area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    gradients = np.stack([[by - cy, cx - bx], [cy - ay, ax - cx], [ay - by, bx - ax]]) / twice_area  # of barycentrics
-    second = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / twice_area
-    third = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / twice_area
-    barycentric = np.stack([1 - second - third, second, third])
-    k = barycentric.min(axis=0).argmax(axis=0)
-    inside, gradient = barycentric[:, k, np.arange(x.size)], gradients[:, :, k, 0]
-    if name == "P1":
-        values = u[mesh.t[:, k]]
-        return (values * inside).sum(axis=0), np.einsum("iq,idq->dq", values, gradient)
-    values = u[mesh.t2f[:, k]]  # a facet's function is 1 - 2 barycentric of the vertex across
-    across = [2, 0, 1]
-    return (values * (1 - 2 * inside[across])).sum(axis=0), -2 * np.einsum("iq,idq->dq", values, gradient[across])

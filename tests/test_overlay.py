@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 from skfem import Basis, ElementTriP0, MeshTri
 
-from builders import evaluate, grid, perturbed
+from builders import grid, perturbed
 from signorini.elements import ELEMENTS, element
 from signorini.errors import ReferenceErrors
 from signorini.errors.overlay import Overlay
 from signorini.exceptions import MeshError
 from signorini.mesh import Rectangle
 from signorini.mesh.patterns import PATTERNS, criss_cross
+from test_errors import evaluate
 
 DIAGONALS = ("falling", "rising", *PATTERNS)
 RULES = ("exact", "midpoints", "centroid", "vertices")

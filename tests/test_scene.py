@@ -177,7 +177,7 @@ BAD_INPUT = {
     ),
     "unknown rule": (
         VALID + "load_quadrature: gauss\n",
-        "expected centroid, midpoints, vertices, exact or a whole number",
+        "expected centroid, midpoints, vertices, exact, nodal or a whole number",
     ),
     "rule a float": (VALID + "load_quadrature: 5.0\n", "load_quadrature: 5.0 is not valid"),
     "rule zero": (VALID + "load_quadrature: 0\n", "load_quadrature: 0 is not valid"),

@@ -199,3 +199,21 @@ def test_the_figures_show_the_rows(tmp_path):
     numbers = [text.get_text() for axes in ratios.axes for text in axes.texts]
     assert len(numbers) == 5 * 5 * len(COARSE)
     assert all(re.fullmatch(r"\d\.\d\d", number) for number in numbers)
+
+
+def test_a_png_of_few_colours_keeps_the_frequent_ones(tmp_path):
+    pytest.importorskip("matplotlib")
+    from PIL import Image
+
+    from signorini.figures.style import new_figure, save_figure
+
+    figure = new_figure(2, 1)
+    figure.add_axes((0, 0, 0.5, 1), facecolor="#123456", xticks=[], yticks=[])
+    figure.text(0.75, 0.5, "text")
+    save_figure(figure, tmp_path / "all.png")
+    save_figure(figure, tmp_path / "few.png", colours=8)
+    every, few = (Image.open(tmp_path / name).convert("RGB") for name in ("all.png", "few.png"))
+    assert every.size == few.size
+    assert len(every.getcolors()) > 8
+    assert [colour for _, colour in sorted(few.getcolors())[-2:]] == [(0x12, 0x34, 0x56), (255, 255, 255)]
+    assert len(few.getcolors()) == 8

@@ -15,7 +15,7 @@ def main(arguments):
     compared = draw_ratios([row for row in ratios if row["rule"] == "exact"])
     for figure, paths in ((matches, arguments.matches_to), (compared, arguments.ratios_to)):
         for path in paths:
-            save_figure(figure, path, colours=64)
+            save_figure(figure, path, colours=128)
     return "figure: sensitivity"
 
 

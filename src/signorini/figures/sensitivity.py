@@ -17,8 +17,9 @@ DIAGONALS = {
     "criss-cross": "criss-cross",
 }
 H1 = {"full": "$H^1$: full norm", "semi": "$H^1$: seminorm"}
-NEAR = LinearSegmentedColormap.from_list("near", ["#1d4f86", ACCENT, "#7ba7d7", "#c9dcf0", "#fbfcfe"])
-BETTER = LinearSegmentedColormap.from_list("better", ["#1d4f86", "#7ba7d7", "#ffffff", "#cea97b", "#87521c"])
+STEPS = 33  # of colour
+NEAR = LinearSegmentedColormap.from_list("near", ["#1d4f86", ACCENT, "#7ba7d7", "#c9dcf0", "#fbfcfe"], N=STEPS)
+BETTER = LinearSegmentedColormap.from_list("better", ["#1d4f86", "#7ba7d7", "#ffffff", "#cea97b", "#87521c"], N=STEPS)
 FLAT = 0.8  # height of a tile over its width
 WIDEST = 4.0  # ratios beyond, or below its inverse, have the darkest colours
 
@@ -54,27 +55,28 @@ def draw_matches(rows):
     for i, (rules, table) in enumerate(groups):
         for j, h1 in enumerate(meanings):
             place = LABELS + i * (side + GAP), page[1] - ABOVE - (j + 1) * height - j * GAP
-            axes = _panel(figure, page, place, (side, height), diagonals, i == 0)
-            for y, diagonal in enumerate(diagonals):
-                for x, load in enumerate(loads):
-                    row = table[diagonal, load, h1]
-                    miss = float(row["largest_miss"])
-                    dark = colours.norm(miss) < 0.4
-                    _tile(axes, x, y, colours.to_rgba(miss), (row["matched"], 8, 0.4), dark)
-                    _tile(axes, x, y, None, (f"{percent(miss)}%", 5.6, 0.78), dark)
+            axes = _panel(figure, page, place, (side, height), diagonals, named=i == 0)
+            _fill_matches(axes, [[table[diagonal, load, h1] for load in loads] for diagonal in diagonals], colours)
             if j == 0:
                 axes.set_title(f"norms {rules}", fontsize=8)
             if i == len(groups) - 1:
-                axes.annotate(
-                    H1[h1], (1, 0.5), (5, 0), "axes fraction", "offset points", rotation=270, va="center", size=8
-                )
+                aside = {"xytext": (5, 0), "textcoords": "offset points", "rotation": 270, "va": "center", "size": 8}
+                axes.annotate(H1[h1], (1, 0.5), xycoords="axes fraction", **aside)
             if j == len(meanings) - 1:
                 axes.set_xticks([k + 0.5 for k in range(len(loads))], loads, rotation=40, ha="right")
-    _name_columns(figure, page, "load")
-    _bar(
-        figure, page, colours, f"errors matched, of {rows[0]['errors']}; below and by colour, the largest relative miss"
-    )
+    figure.text((LABELS - 0.35) / page[0], (CAPTION + 0.3) / page[1], "load", ha="right", va="center", fontsize=8)
+    total = rows[0]["errors"]
+    _bar(figure, page, colours, f"errors matched, of {total}; below and by colour, the largest relative miss")
     return figure
+
+
+def _fill_matches(axes, lines, colours):
+    for y, line in enumerate(lines):
+        for x, row in enumerate(line):
+            miss = float(row["largest_miss"])
+            dark = colours.norm(miss) < 0.4
+            _tile(axes, x, y, colours.to_rgba(miss), (row["matched"], 8, 0.4), dark)
+            _tile(axes, x, y, None, (f"{percent(miss)}%", 5.6, 0.78), dark)
 
 
 @matplotlib.rc_context(STYLE)
@@ -102,7 +104,7 @@ def draw_ratios(rows):
     for k, load in enumerate(loads):
         i, j = k % columns, k // columns
         place = LABELS + i * (side + GAP), page[1] - (j + 1) * (height + above)
-        axes = _panel(figure, page, place, (side, height), diagonals, i == 0)
+        axes = _panel(figure, page, place, (side, height), diagonals, named=i == 0)
         for y, diagonal in enumerate(diagonals):
             for x, n in enumerate(levels):
                 ratio = found[load, diagonal, n]
@@ -110,9 +112,7 @@ def draw_ratios(rows):
                 _tile(axes, x, y, colours.to_rgba(ratio), (f"{ratio:.2f}", 6.5, 0.52), dark)
         axes.set_title(f"load: {load}", fontsize=8, pad=13)
         axes.xaxis.tick_top()
-        axes.set_xticks(
-            [x + 0.5 for x in range(len(levels))], [f"$N={n}$" if x == 0 else n for x, n in enumerate(levels)]
-        )
+        axes.set_xticks([x + 0.5 for x in range(len(levels))], [f"$N={levels[0]}$", *levels[1:]])
         axes.tick_params(labelsize=7, pad=0)
     _bar(figure, page, colours, "$L^2$ error of NCF relative to CF: blue where NCF has the smaller, brown where CF has")
     return figure
@@ -173,10 +173,6 @@ def _tile(axes, x, y, colour, label, dark):
         axes.set_xlim(0, max(axes.get_xlim()[1], x + 1))
         axes.fill([x, x + 1, x + 1, x], [y, y, y + 1, y + 1], facecolor=colour, edgecolor="white", linewidth=1)
     axes.text(x + 0.5, y + height, text, ha="center", va="center", fontsize=size, color="white" if dark else BLACK)
-
-
-def _name_columns(figure, page, name):
-    figure.text((LABELS - 0.35) / page[0], (CAPTION + 0.3) / page[1], name, ha="right", va="center", fontsize=8)
 
 
 def _bar(figure, page, colours, label):

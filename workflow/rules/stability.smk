@@ -53,7 +53,7 @@ rule stability_success:
     params:
         seeds=1 if QUICK else 25,
         few=1 if QUICK else 3,
-        limit=0.1 if QUICK else 0.5,
+        limit=0.1 if QUICK else 1,
     shell:
         "python3 workflow/scripts/stability_success.py --family {wildcards.family} --seeds {params.seeds}"
         " --few {params.few} --time-limit {params.limit} --output {output:q} 2>&1 | tee {log:q}"
@@ -132,7 +132,7 @@ rule stability_report:
         f"{STABILITY}/logs/report.log",
     params:
         folder=STABILITY,
-        limit=0.1 if QUICK else 0.5,
+        limit=0.1 if QUICK else 1,
     shell:
         "python3 workflow/scripts/stability_report.py --folder {params.folder:q} --time-limit {params.limit}"
         " 2>&1 | tee {log:q}"

@@ -8,7 +8,7 @@ from signorini.studies import stability_floor
 
 @options("--piece", ("--levels", {"type": float, "nargs": "+"}), "--output")
 def main(arguments):
-    """``<family>-<element>``, ``conditions`` or ``stretching`` (with exponents of ten for levels) to a row per level."""
+    """``<family>-<element>``, ``conditions`` or ``stretching`` (its levels are exponents of ten) to a row per level."""
     levels = [int(n) for n in arguments.levels]
     if arguments.piece == "conditions":
         rows = stability_floor.conditions(levels)

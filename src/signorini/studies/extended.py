@@ -20,8 +20,8 @@ _MAX_STEPS = 400
 def extended_stiffness(mesh, element):
     """The stiffness matrix for coefficient 1, by edge vectors.
 
-    With e_i the edge opposite vertex i of a triangle T, P1 has the entries e_i.e_j / (4 |T|), and CR four times those, on
-    the edges in place of the opposite vertices.
+    With e_i the edge opposite vertex i of a triangle T, P1 has the entries e_i.e_j / (4 |T|), and CR four times those,
+    on the edges in place of the opposite vertices.
 
     Parameters
     ----------

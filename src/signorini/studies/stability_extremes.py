@@ -125,7 +125,7 @@ def contact_sets():
     Returns
     -------
     list of dict
-        Per element, route and case: ``contact`` unknowns, those ``active`` and those ``expected`` to be, ``iterations``.
+        Per element, route and case: ``contact`` unknowns, those ``active``, those ``expected`` to be, ``iterations``.
     """
     rows = []
     for element in ELEMENTS:

@@ -44,8 +44,8 @@ def errors(family, element, levels, method="auto"):
     Returns
     -------
     list of dict
-        Per level: ``family``, ``element``, ``n``, ``method``, ``dofs``, ``l2``, ``h1_semi``, ``residual``, ``accuracy``,
-        ``seconds`` of the solve.
+        Per level: ``family``, ``element``, ``n``, ``method``, ``dofs``, ``l2``, ``h1_semi``, ``residual``,
+        ``accuracy``, ``seconds`` of the solve.
     """
     statement, measured = truth_statement(family), ExactErrors(exact_family(family), NORMS)
     rows = []
@@ -189,6 +189,6 @@ def crossings(rows):
 
 
 def _power(points):
-    n, values = np.log(points).T
+    n, values = np.log([point for point in points if point[1] > 0]).T
     exponent, offset = np.polyfit(n, values, 1)
     return float(exponent), float(np.exp(offset))

@@ -1,5 +1,7 @@
-"""Success rates in the manner of qpbenchmark: ours on every route that applies, and the rivals, on generated problems."""
+"""Success rates on generated problems in the manner of qpbenchmark: ours on every route that applies, and rivals."""
 
+import importlib
+import os
 import time
 
 import numpy as np
@@ -14,8 +16,9 @@ from signorini.studies.rivals.timed import Arena
 
 TOLERANCES = (1e-6, 1e-9)
 SHIFT = 0.01  # seconds; of the shifted geometric mean
+_SCIPY = ("scipy.linalg", "scipy.optimize", "scipy.sparse.linalg")
+_PATIENCE = 4  # time limits after which a rival that keeps none is ended
 SLOW = ("pyamg", "ngsolve", "proxqp", "highs", "lbfgsb", "petsc-vi", "petsc-tao")  # rivals that get fewer problems
-NUMBERS = ("seed", "dofs", "aspect", "claimed", "residual", "seconds", "iterations", "accuracy", "error")
 
 
 def measure(family, seeds, few, time_limit):
@@ -38,21 +41,30 @@ def measure(family, seeds, few, time_limit):
         A row per problem and solver. Of ours, a route is named ``ours/<method>``, and the one that is taken unasked
         ``ours``; they alone have a ``status`` and an ``accuracy``, as the solution states them, and an ``error``,
         against the solution in extended precision. ``claimed``: the solver returned an answer and called it one.
+        ``busy``: the machine's load average.
     """
-    chosen = [name for name, rival in RIVALS.items() if rival.available()]
-    arena, rows = Arena(_theirs, 2.0 * time_limit), []
+    chosen = _prepared()
+    arena, rows = Arena(_theirs, _PATIENCE * time_limit), []
     for load in LOADS:
         for element in ELEMENTS:
             for seed in range(seeds):
                 key = (family, load, element, seed)
                 made = instance(*key)
                 what = dict(zip(("family", "load", "element", "seed"), key, strict=True))
-                what |= {"dofs": made.problem.b.size, "aspect": made.aspect}
+                what |= {"dofs": made.problem.b.size, "aspect": made.aspect, "busy": os.getloadavg()[0]}
                 rows += [what | found for found in _ours(made.problem)]
                 asked = [name for name in chosen if seed < few or name not in SLOW]
                 rows += [what | (arena.ask(key, name, time_limit) or _late(name, time_limit)) for name in asked]
     arena.close()
     return rows
+
+
+def _prepared():
+    """The names of the rivals that are installed, imported before any clock starts."""
+    chosen = [name for name, rival in RIVALS.items() if rival.available()]
+    for module in (*_SCIPY, *(RIVALS[name].package for name in chosen)):
+        importlib.import_module(module)
+    return chosen
 
 
 def _ours(problem):
@@ -98,7 +110,7 @@ def _theirs(key, name, time_limit):
 
 
 def _late(name, time_limit):
-    return _row(name, False, np.inf, 2.0 * time_limit, 0)
+    return _row(name, False, np.inf, _PATIENCE * time_limit, 0)
 
 
 def _row(solver, claimed, residual, seconds, iterations, status="", accuracy=None, error=None):
@@ -118,21 +130,21 @@ def summary(rows, time_limit):
     Parameters
     ----------
     rows : list of dict
-        As `measure` gives them, or read with `NUMBERS`.
+        As `measure` gives them.
     time_limit : float
         What a problem counts that is not solved to the last of `TOLERANCES`, in seconds.
 
     Returns
     -------
     list of dict
-        Per solver: ``problems``; ``solved_1e-06`` and ``solved_1e-09``, shares claimed solved with a residual of at most
-        that; ``ordinary_1e-09``, the same without the loads tiny and huge; ``unclaimed``, problems with a residual of
-        at most 1e-9 that the solver reports as failed; ``wrong``, problems claimed solved with a residual above 1e-6;
-        ``seconds``, shifted geometric mean; ``median_iterations`` and ``most_iterations``.
+        Per solver: ``problems``; ``solved_1e-06`` and ``solved_1e-09``, shares claimed solved with a residual of at
+        most that; ``ordinary_1e-09``, the same without the loads tiny and huge; ``unclaimed``, problems with a
+        residual of at most 1e-9 that the solver reports as failed; ``wrong``, problems claimed solved with a residual
+        above 1e-6; ``seconds``, shifted geometric mean; ``median_iterations`` and ``most_iterations``.
     """
     return [
         {"solver": solver} | _achieved([row for row in rows if row["solver"] == solver], time_limit)
-        for solver in dict.fromkeys(row["solver"] for row in rows)
+        for solver in sorted({row["solver"]: 0 for row in rows}, key=lambda name: not name.startswith("ours"))
     ]
 
 

@@ -110,7 +110,7 @@ def draw_floor(errors, lines):
     figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
     for k, (norm, title) in enumerate(NORMS.items()):
         axes = figure.add_axes((0.085 + 0.5 * k, 0.14, 0.405, 0.76), xscale="log", yscale="log")
-        for element in dict.fromkeys(row["element"] for row in errors):
+        for element in COLOURS:
             style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}
             for family, look in (("smooth", "-"), ("patch", (0, (4, 2)))):
                 own = [r for r in errors if (r["element"], r["family"]) == (element, family) and r[norm] > 0]
@@ -121,6 +121,9 @@ def draw_floor(errors, lines):
             bound = [EPS * factor * h**-exponent for h in widths]
             label = f"eps times condition, {element}"
             axes.plot(widths, bound, color=COLOURS[element], linewidth=0.6, linestyle=(0, (1, 1.5)), label=label)
+        levels = sorted({row["n"] for row in errors})
+        axes.set_xticks([1 / n for n in levels[::-2]], [f"1/{n:.0f}" for n in levels[::-2]])
+        axes.minorticks_off()
         axes.set(xlabel="mesh width $h$", title=title)
         axes.title.set_fontsize(8)
         if k == 0:

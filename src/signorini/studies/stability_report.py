@@ -4,13 +4,13 @@ import numpy as np
 
 from signorini.studies import machine
 from signorini.studies.rivals import RIVALS
+from signorini.studies.stability_claims import claims
 from signorini.studies.stability_digits import digits
 from signorini.studies.stability_floor import EPS, crossings, growth
 from signorini.studies.stability_parts import title
 from signorini.studies.stability_success import SLOW, statuses, summary
 from signorini.studies.texts import Table, markdown_table, seconds, tex, tex_figure, tex_table
 
-DIGITS_PROMISED = 11
 ELEMENTS = {"P1": "CF (P1)", "CR": "NCF (CR)"}
 NORMS = {"l2": "L2", "h1_semi": "H1 seminorm", "h1": "H1"}
 PACKAGES = (*machine.OURS, "clarabel", "highspy", "ngsolve", "osqp", "piqp", "proxsuite", "pyamg")
@@ -41,78 +41,8 @@ class Report:
         }
 
     def claims(self):
-        """What is promised, and what was measured: rows of ``claim``, ``measured``, ``limit``, ``met``."""
-        ours = [row for row in self.solvers if row["solver"].startswith("ours")]
-        main, extremes = ours[0], self.extremes
-        worst_digits = min(row["digits"] for row in self.digits)
-        refused = [row for row in extremes["offsets"] if row["refused"]]
-        moved = [row["change"] * 1.0 / (EPS * row["value"]) for row in extremes["offsets"] if not row["refused"]]
-        sizes = max(row["change"] for row in extremes["sizes"])
-        walk = [row for row in extremes["walk"] if row["status"] != "refused"]
-        points = extremes["critical-points"]
-        unmet = [row for row in extremes["contact-sets"] if row["active"] != row["expected"]]
-        rows = [
-            (
-                "problems solved, KKT residual at most 1e-9",
-                _share(main["solved_1e-09"]),
-                "100 %",
-                main["solved_1e-09"] == 1,
-            ),
-            (
-                "the same by the worst route",
-                _share(min(r["solved_1e-09"] for r in ours)),
-                "100 %",
-                all(r["solved_1e-09"] == 1 for r in ours),
-            ),
-            ("claimed solved, but wrong", sum(r["wrong"] for r in ours), 0, not any(r["wrong"] for r in ours)),
-            (
-                "called solved with an error above 1e-10",
-                sum(r["wrong"] for r in self.statuses),
-                0,
-                not any(r["wrong"] for r in self.statuses),
-            ),
-            (
-                "stable digits of the worst number of Table 5.1",
-                f"{worst_digits:.1f}",
-                DIGITS_PROMISED,
-                worst_digits >= DIGITS_PROMISED,
-            ),
-            (
-                "numbers that differ in a bit after scaling by 2^k",
-                sum(r["different"] for r in extremes["scaling"]),
-                0,
-                not any(r["different"] for r in extremes["scaling"]),
-            ),
-            ("change of u with the unit of length", f"{sizes:.1e}", "1e-12", sizes <= 1e-12),
-            ("change of u with the place, in eps times offset", f"{max(moved):.2f}", 1, max(moved) <= 1),
-            (
-                "places beyond the coordinates' resolution: refused, saying so",
-                f"{len(refused)}",
-                "all",
-                bool(refused) and all("resolution" in r["refused"] for r in refused),
-            ),
-            (
-                "KKT residual at most critical points",
-                f"{max(r['residual'] for r in points):.1e}",
-                "1e-12",
-                max(r["residual"] for r in points) <= 1e-12,
-            ),
-            ("contact sets empty, full, single: found otherwise", len(unmet), 0, not unmet),
-            (
-                "their active-set steps, at most",
-                max(r["iterations"] for r in extremes["contact-sets"]),
-                3,
-                all(r["iterations"] <= 3 for r in extremes["contact-sets"]),
-            ),
-            (
-                "random scenes: largest distance from BVLS, in condition times 1e-14",
-                f"{_walked(walk):.2f}",
-                1,
-                _walked(walk) <= 1,
-            ),
-            ("random scenes refused", len(extremes["walk"]) - len(walk), 0, len(walk) == len(extremes["walk"])),
-        ]
-        return [dict(zip(("claim", "measured", "limit", "met"), row, strict=True)) for row in rows]
+        """See `stability_claims.claims`."""
+        return claims(self.success, self.statuses, self.digits, self.extremes)
 
     def tables(self):
         """The tables of the page, by label."""
@@ -249,7 +179,3 @@ def _share(value):
 
 def _power(value):
     return f"{value:.1e}"
-
-
-def _walked(rows):
-    return max(row["difference"] / (1e-14 * row["condition"]) for row in rows)

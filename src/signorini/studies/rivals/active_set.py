@@ -62,10 +62,11 @@ def pyamg(qp, tolerance, deadline):
 
 
 def ngsolve(qp, tolerance, deadline):
-    """NGSolve's sparse Cholesky on the unknowns that are not held, in every step."""
-    from ngsolve import BaseVector, BitArray
+    """NGSolve's sparse Cholesky on the unknowns that are not held, in every step; one thread, more are slower."""
+    from ngsolve import BaseVector, BitArray, SetNumThreads
     from ngsolve.la import SparseMatrixd
 
+    SetNumThreads(1)
     K = qp.K.tocoo()
     matrix = SparseMatrixd.CreateFromCOO(K.row, K.col, K.data, *K.shape)
 

@@ -102,4 +102,4 @@ def _all(claim, rows, good):
 
 def _number(claim, value, limit):
     shown = str(value) if isinstance(value, int) else f"{value:.1e}"
-    return {"claim": claim, "measured": shown, "limit": f"{limit:g}", "met": value <= limit}
+    return {"claim": claim, "measured": shown, "limit": f"{limit:g}", "met": bool(value <= limit)}

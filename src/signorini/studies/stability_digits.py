@@ -6,7 +6,8 @@ import numpy as np
 
 from signorini.errors import ReferenceErrors
 from signorini.exceptions import SolverError
-from signorini.mesh.triangulation import LABELS, Triangulation
+from signorini.mesh.labels import NamedMesh, labelled
+from signorini.mesh.triangulation import LABELS
 from signorini.problem import discretize, discretize_on
 from signorini.rates import slopes
 from signorini.solvers import METHODS, solve
@@ -94,21 +95,18 @@ def renumber(mesh, rng):
     vertex, facet : ndarray of int
         The new number of each old vertex and facet.
     """
-    from skfem import MeshTri
-
     vertex = rng.permutation(mesh.number_of_vertices)
     p = np.empty_like(mesh.p)
     p[:, vertex] = mesh.p
-    new = MeshTri(p, np.ascontiguousarray(vertex[mesh.t][:, rng.permutation(mesh.number_of_triangles)]))
-    keys = np.sort(new.facets, axis=0).T @ [p.shape[1], 1]
-    wanted = np.sort(vertex[mesh.facets], axis=0).T @ [p.shape[1], 1]
-    order = np.argsort(keys)
-    facet = order[np.searchsorted(keys[order], wanted)]
-    return (
-        Triangulation(new.with_boundaries({name: facet[mesh.boundary_facets(name)] for name in LABELS})),
-        vertex,
-        facet,
+    t = vertex[mesh.t][:, rng.permutation(mesh.number_of_triangles)]
+    ends = {label: vertex[mesh.facets[:, mesh.boundary_facets(label)]] for label in LABELS}
+    parts = {label: found for label, found in ends.items() if found.size}
+    new = labelled(NamedMesh(p, np.ascontiguousarray(t), parts), {label: label for label in parts})
+    keys, wanted = (
+        np.sort(facets, axis=0).T.astype(np.int64) @ [p.shape[1], 1] for facets in (new.facets, vertex[mesh.facets])
     )
+    order = np.argsort(keys)
+    return new, vertex, order[np.searchsorted(keys[order], wanted)]
 
 
 def variant(name, statement, asked, samples):

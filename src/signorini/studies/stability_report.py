@@ -119,7 +119,8 @@ class Report:
             "Digits of Table 5.1 that one can trust: -log10 of the largest relative change of each number, "
             f"at most {-np.log10(EPS):.1f}, over all of: {', '.join(variants)}. Renumbered: vertices, triangles and "
             "edges of every mesh, the reference's too, in random order. Last bit: every datum moved by one unit in its "
-            "last binary digit, up or down, or not at all."
+            "last binary digit, up or down, or not at all. An entry e is the size of a difference of two functions of "
+            "size one, so that -log10 e of the digits of these are not its own."
         )
         return Table(header, rows, caption)
 

@@ -34,7 +34,7 @@ def scaling(powers):
     for element in ELEMENTS:
         problem, coarse = (discretize(_statement(), element, n) for n in (_N, _N // 2))
         for method in METHODS:
-            if _applies(problem, method):
+            if applies(problem, method):
                 base = _numbers(problem, coarse, method)
                 for power in powers:
                     scaled = _numbers(_times(problem, power), _times(coarse, power), method)
@@ -68,7 +68,7 @@ def domains(sizes, offsets):
     for element in ELEMENTS:
         base = discretize(_statement(), element, _N)
         for method in METHODS:
-            if not _applies(base, method):
+            if not applies(base, method):
                 continue
             u = solve(base, method).u
             for kind, value, size, offset in cases:
@@ -136,7 +136,7 @@ def contact_sets():
                 problem = replace(problem, lower=np.where(np.arange(size) == size // 3, 1.0, 0.0))
             expected = {"empty": 0, "full": size, "zero": size, "single": 1}[case]
             for method in METHODS:
-                if _applies(problem, method):
+                if applies(problem, method):
                     solution = solve(problem, method)
                     what = {"element": element, "method": method, "case": case, "contact": size}
                     active = int(solution.active.sum())
@@ -155,7 +155,8 @@ def _data(data):
     )
 
 
-def _applies(problem, method):
+def applies(problem, method):
+    """Whether a route of `METHODS` takes a problem."""
     try:
         solve(problem, method)
     except SolverError as error:

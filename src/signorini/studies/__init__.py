@@ -1,1 +1,1 @@
-"""Studies: what the software and the paper's choices are measured by, beyond the scenes."""
+"""Studies: what is measured about the solvers beyond a scene. They know the library; the library knows no study."""

@@ -1,0 +1,105 @@
+"""What the stability suite promises, held against what it measured."""
+
+from signorini.studies.stability_floor import EPS
+from signorini.studies.stability_success import TOLERANCES
+
+DIGITS = 11
+ERROR = 1e-10  # up to which a solution may be called solved
+STEPS = 3
+
+
+def claims(success, statuses, digits, extremes):
+    """Hold every promise against the rows measured.
+
+    Parameters
+    ----------
+    success, statuses, digits : list of dict
+        Of `stability_success.measure` and `statuses`, and of `stability_digits.digits`.
+    extremes : dict
+        Kind of extremes -> rows of `stability_extremes`.
+
+    Returns
+    -------
+    list of dict
+        ``claim``, ``measured``, ``limit``, ``met``.
+    """
+    ours = [row for row in success if row["solver"].startswith("ours")]
+    unasked = [row for row in ours if row["solver"] == "ours"]
+    return [
+        _all("generated problems solved, KKT residual at most 1e-9", unasked, _solved),
+        _all("the same by every route that applies", ours, _solved),
+        _number(
+            "solutions called solved whose error is above 1e-10",
+            int(sum(row["wrong"] for row in statuses)),
+            0,
+        ),
+        _all(f"numbers of Table 5.1 with at least {DIGITS} stable digits", digits, lambda row: row["digits"] >= DIGITS),
+        *_places(extremes),
+        *_contact(extremes),
+        *_walk(extremes["walk"]),
+    ]
+
+
+def _places(extremes):
+    moved = [row for row in extremes["offsets"] if not row["refused"]]
+    refused = [row for row in extremes["offsets"] if row["refused"]]
+    shift = max(row["change"] / (EPS * row["value"]) for row in moved)
+    powers = [row["power"] for row in extremes["scaling"]]
+    sizes = [row["value"] for row in extremes["sizes"]]
+    return [
+        _all(
+            f"data times 2^k, k from {min(powers):.0f} to {max(powers):.0f}: u, force and errors scale bit for bit",
+            extremes["scaling"],
+            lambda row: row["different"] == 0,
+        ),
+        _number(
+            f"unit of length from {min(sizes):g} to {max(sizes):g}: relative change of u",
+            max(row["change"] for row in extremes["sizes"]),
+            1e-12,
+        ),
+        _number("body moved: relative change of u, in units of eps times offset over size", shift, 1),
+        _all(
+            "body moved until the coordinates cannot resolve its cells: refused for that reason",
+            refused,
+            lambda row: "coordinate resolution" in row["refused"],
+        ),
+    ]
+
+
+def _contact(extremes):
+    points = extremes["critical-points"]
+    return [
+        _number(
+            f"up to {max(row['critical_points'] for row in points):.0f} critical points: KKT residual",
+            max(row["residual"] for row in points),
+            TOLERANCES[-1],
+        ),
+        _all(
+            f"contact sets empty, full, of one unknown: found, in at most {STEPS} steps",
+            extremes["contact-sets"],
+            lambda row: row["active"] == row["expected"] and row["iterations"] <= STEPS,
+        ),
+    ]
+
+
+def _walk(rows):
+    solved = [row for row in rows if row["status"] != "refused"]
+    distance = max(row["difference"] / (1e-14 * row["condition"]) for row in solved)
+    return [
+        _all("random scenes solved", rows, lambda row: row["status"] == "solved"),
+        _number("random scenes: distance from BVLS, in units of 1e-14 times condition", distance, 1),
+    ]
+
+
+def _solved(row):
+    return bool(row["claimed"]) and row["residual"] <= TOLERANCES[-1]
+
+
+def _all(claim, rows, good):
+    count = sum(map(good, rows))
+    return {"claim": claim, "measured": f"{count} of {len(rows)}", "limit": "all", "met": 0 < count == len(rows)}
+
+
+def _number(claim, value, limit):
+    shown = str(value) if isinstance(value, int) else f"{value:.1e}"
+    return {"claim": claim, "measured": shown, "limit": f"{limit:g}", "met": bool(value <= limit)}

@@ -1,0 +1,153 @@
+# `snakemake --cores 2 stability`: what the solvers survive, and how many digits of a result can be trusted.
+
+STABILITY = f"{STUDIES}/stability"
+STABILITY_FIGURES = ["ours", "rivals", "floor", "stretched"]
+QUICK = CONFIG["quick"]
+
+# As in signorini.studies.problems.FAMILIES.
+MESH_FAMILIES = ["right-angled", "rising", "criss-cross", "delaunay", "perturbed", "stretched", "needles"]
+VARIANTS = {"auto": 1, "routes": 1, "routes-two-threads": 2, "last-bit": 1, "renumbered": 1}  # and their threads
+
+_FINEST = {"smooth": 6 if QUICK else 11, "patch": 6 if QUICK else 12}
+FLOOR = {
+    **{
+        f"{family}-{element}": [2**k for k in range(1, finest + 1)]
+        for family, finest in _FINEST.items()
+        for element in ("P1", "CR")
+    },
+    "conditions": [4, 8, 16, 32] if QUICK else [4, 8, 16, 32, 64, 128],
+    "stretching": range(0, 9) if QUICK else [k / 2 for k in range(17)],
+}
+EXTREMES = {
+    "scaling": [-900, 900] if QUICK else range(-900, 901, 100),
+    "sizes": [-9, 9] if QUICK else range(-9, 10, 3),
+    "offsets": [4, 14] if QUICK else range(2, 17, 2),
+    "critical-points": [4, 64] if QUICK else [4, 64, 1024, 4096],
+    "contact-sets": [],
+    "walk": [50] if QUICK else [3000],
+}
+
+
+def digits_asked():
+    """What the scene `paper` asks, and no finer where it is to be quick."""
+    asked = scene("paper").section("elements", "levels", "truth", "norms")
+    return asked | ({"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}} if QUICK else {})
+
+
+rule stability:
+    input:
+        f"{STABILITY}/stability.tex",
+        f"{STABILITY}/stability.md",
+        [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
+
+
+rule stability_success:
+    input:
+        library("stability_success.py"),
+    output:
+        f"{STABILITY}/success/{{family}}.csv",
+    log:
+        f"{STABILITY}/logs/success_{{family}}.log",
+    wildcard_constraints:
+        family="|".join(MESH_FAMILIES),
+    params:
+        seeds=1 if QUICK else 25,
+        few=1 if QUICK else 3,
+        limit=0.1 if QUICK else 1,
+    shell:
+        "python3 workflow/scripts/stability_success.py --family {wildcards.family} --seeds {params.seeds}"
+        " --few {params.few} --time-limit {params.limit} --output {output:q} 2>&1 | tee {log:q}"
+
+
+rule stability_digits:
+    input:
+        library("stability_digits.py"),
+    output:
+        f"{STABILITY}/digits/{{variant}}.csv",
+    log:
+        f"{STABILITY}/logs/digits_{{variant}}.log",
+    wildcard_constraints:
+        variant="|".join(VARIANTS),
+    params:
+        statement=lambda wildcards: statement_of("paper"),
+        scene=lambda wildcards: as_json(digits_asked()),
+        name=lambda wildcards: wildcards.variant.removesuffix("-two-threads"),
+        samples=lambda wildcards: {"last-bit": 5, "renumbered": 2}.get(wildcards.variant, 1),
+        threads=lambda wildcards: VARIANTS[wildcards.variant],
+    shell:
+        "python3 workflow/scripts/stability_digits.py --statement {params.statement:q} --scene {params.scene:q}"
+        " --variant {params.name} --samples {params.samples} --threads {params.threads} --output {output:q}"
+        " 2>&1 | tee {log:q}"
+
+
+rule stability_floor:
+    input:
+        library("stability_floor.py"),
+    output:
+        f"{STABILITY}/floor/{{piece}}.csv",
+    log:
+        f"{STABILITY}/logs/floor_{{piece}}.log",
+    wildcard_constraints:
+        piece="|".join(FLOOR),
+    params:
+        levels=lambda wildcards: list(FLOOR[wildcards.piece]),
+    priority: 5
+    shell:
+        "python3 workflow/scripts/stability_floor.py --piece {wildcards.piece} --levels {params.levels}"
+        " --output {output:q} 2>&1 | tee {log:q}"
+
+
+rule stability_extremes:
+    input:
+        library("stability_extremes.py"),
+    output:
+        f"{STABILITY}/extremes/{{kind}}.csv",
+    log:
+        f"{STABILITY}/logs/extremes_{{kind}}.log",
+    wildcard_constraints:
+        kind="|".join(EXTREMES),
+    params:
+        values=lambda wildcards: list(EXTREMES[wildcards.kind]),
+    shell:
+        "python3 workflow/scripts/stability_extremes.py --kind {wildcards.kind} --output {output:q}"
+        " --values {params.values} 2>&1 | tee {log:q}"
+
+
+def stability_pieces(folder, names):
+    return expand(f"{STABILITY}/{folder}/{{name}}.csv", name=names)
+
+
+rule stability_report:
+    input:
+        library("stability_report.py"),
+        success=stability_pieces("success", MESH_FAMILIES),
+        digits=stability_pieces("digits", VARIANTS),
+        floor=stability_pieces("floor", FLOOR),
+        extremes=stability_pieces("extremes", EXTREMES),
+    output:
+        tex=f"{STABILITY}/stability.tex",
+        markdown=f"{STABILITY}/stability.md",
+        tables=expand(f"{STABILITY}/{{name}}.csv", name=["claims", "solvers", "statuses", "digits", "crossings"]),
+    log:
+        f"{STABILITY}/logs/report.log",
+    params:
+        folder=STABILITY,
+        limit=0.1 if QUICK else 1,
+    shell:
+        "python3 workflow/scripts/stability_report.py --folder {params.folder:q} --time-limit {params.limit}"
+        " 2>&1 | tee {log:q}"
+
+
+rule figure_stability:
+    input:
+        library("figure_stability.py"),
+        success=stability_pieces("success", MESH_FAMILIES),
+        floor=stability_pieces("floor", FLOOR),
+    output:
+        [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
+    log:
+        f"{STABILITY}/logs/figures.log",
+    params:
+        folder=STABILITY,
+    shell:
+        "python3 workflow/scripts/figure_stability.py --folder {params.folder:q} {output:q} 2>&1 | tee {log:q}"

@@ -1,0 +1,31 @@
+"""Draw the stability suite's figures, each to PDF and PNG."""
+
+from pathlib import Path
+
+from stage import options, run
+
+from signorini.figures import stability as figures
+from signorini.figures.style import save_figure
+from signorini.studies.stability_floor import growth
+from signorini.studies.stability_parts import digits_by_cell, read_parts, shares, titles
+
+
+@options("--folder", ("outputs", {"nargs": "+"}))
+def main(arguments):
+    """The folder of the suite and stability_<figure>.<pdf or png> to draw."""
+    parts = read_parts(arguments.folder)
+    success, floor = parts["success"], parts["floor"]
+    errors = [row for name, piece in floor.items() if "-" in name for row in piece]
+    drawings = {
+        "ours": lambda: figures.draw_digits(digits_by_cell(success)),
+        "rivals": lambda: figures.draw_rivals(shares(success, "load"), shares(success, "family"), titles(success)),
+        "floor": lambda: figures.draw_floor(errors, growth(floor["conditions"], "condition")),
+        "stretched": lambda: figures.draw_stretched(floor["stretching"]),
+    }
+    for path in map(Path, arguments.outputs):
+        save_figure(drawings[path.stem.removeprefix("stability_")](), path)
+    return f"figures: {len(arguments.outputs)} files"
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

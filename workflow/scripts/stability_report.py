@@ -1,0 +1,27 @@
+"""Write the stability suite's tables, its fragment for the paper, and its page."""
+
+from pathlib import Path
+
+from stage import options, run
+
+from signorini.storage import write_csv, write_text
+from signorini.studies.stability_parts import CAPTIONS, read_parts
+from signorini.studies.stability_report import Report
+
+
+@options("--folder", ("--time-limit", {"type": float}))
+def main(arguments):
+    """The folder of the suite, all its pieces there, to stability.tex, stability.md and the tables as CSV."""
+    folder = Path(arguments.folder)
+    report = Report(read_parts(folder), arguments.time_limit)
+    write_text(folder / "stability.tex", report.tex(CAPTIONS))
+    write_text(folder / "stability.md", report.markdown(CAPTIONS))
+    claims = report.claims()
+    tables = {"claims": claims, "solvers": report.solvers, "statuses": report.statuses, "digits": report.digits}
+    for name, rows in (tables | {"crossings": report.crossings}).items():
+        write_csv(folder / f"{name}.csv", rows)
+    return f"stability: {sum(row['met'] for row in claims)} of {len(claims)} claims met"
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.solvers.count import count
 
 PATIENCE = (5, 100, np.inf)  # exchanges of all, the worse half, or one, without fewer violations; measured
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return
@@ -67,6 +68,7 @@ class DenseContact:
 
     def apply(self, w):
         """Product ``S w``, shape (n,)."""
+        count(inner=1)
         return self.S @ w
 
     def apply_abs(self, w):
@@ -145,6 +147,7 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
 def _pivot(operator, load, weight, active, max_iterations, singular):
     rule, solves = _Exchange(), 0
     for iteration in range(1, max_iterations + 1):
+        count(steps=1)
         if singular and not active.any():
             active[np.argmin(load / weight)] = True
         w, free = np.zeros_like(load), ~active

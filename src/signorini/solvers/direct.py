@@ -11,6 +11,7 @@ import numpy as np
 from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
 from signorini.solvers.contact import DenseContact, solve_contact
+from signorini.solvers.count import count
 
 _LEAF = 8
 _SINGULAR = 1e-13  # a pivot this small against its diagonal entry is round-off
@@ -28,16 +29,21 @@ def solve_direct(problem, guess=None):
         return u, np.zeros(0, dtype=bool), 0, 0.0
     u[problem.contact] = problem.lower
     condensed = Condensed(problem)
-    load = problem.b - problem.A @ u
+    load = _residual(problem, u)
     active, iterations, operator = np.zeros(0, dtype=bool), 0, None
     if problem.contact.size:
         operator = DenseContact(condensed.S)
         result = solve_contact(operator, condensed.reduce(load), guess=guess, singular=problem.fixed.size == 0)
         active, iterations = result.active, result.iterations
     for _ in ("solve", "refine"):
-        u += _displacement(problem, condensed, operator, active, problem.b - problem.A @ u)
+        u += _displacement(problem, condensed, operator, active, _residual(problem, u))
     u[problem.contact[active]] = problem.lower[active]
     return u, active, iterations, _accuracy(problem, condensed, operator, active)
+
+
+def _residual(problem, u):
+    count(products=1)
+    return problem.b - problem.A @ u
 
 
 def _displacement(problem, condensed, operator, active, load):
@@ -50,6 +56,7 @@ def _displacement(problem, condensed, operator, active, load):
 
 def _accuracy(problem, condensed, operator, active):
     """Relative change of u when the terms of A u are rounded by random signs: eps times Skeel's condition number."""
+    count(products=1)
     signs = np.random.default_rng(0).choice((-1.0, 1.0), problem.b.size)
     rounding = np.finfo(float).eps * signs * (abs(problem.A) @ np.ones(problem.b.size))
     return float(np.max(np.abs(_displacement(problem, condensed, operator, active, rounding))))
@@ -85,6 +92,7 @@ class Condensed:
         shift = np.zeros(A.shape[0])
         on_contact = slice(A.shape[0] - self.count, None)
         shift[on_contact] = 2.0 ** np.ceil(np.log2(A.diagonal()[on_contact]))
+        count(factorisations=1)
         try:
             self.factors = splu(
                 (A + diags_array(shift)).tocsc(),

@@ -13,6 +13,7 @@ import numpy as np
 
 from signorini.solvers import transforms
 from signorini.solvers.contact import solve_contact
+from signorini.solvers.count import count
 from signorini.solvers.spectral import contact_operator
 from signorini.stencil import apply_stiffness
 
@@ -96,9 +97,10 @@ def solve_fourier(problem, guess=None):
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] = problem.lower
-    load = problem.b - apply_stiffness(problem.grid, problem.element, u) if u.any() else problem.b
+    load = _load(problem, u)
     route = (_Vertices if problem.element == "P1" else _Edges)(problem.grid, strip)
     rows = route.basis.forward(route.reduce(load) / route.basis.mass)
+    count(factorisations=1)
     factors, symbol = route.eliminate(rows)
     gap, active, iterations = np.zeros(0), np.zeros(0, dtype=bool), 0
     if problem.contact.size:
@@ -114,6 +116,14 @@ def solve_fourier(problem, guess=None):
     u += route.extend(route.basis.backward(rows))
     u[problem.contact] = problem.lower + gap
     return u, active, iterations, 0.0
+
+
+def _load(problem, u):
+    """b - A u, where u may be zero throughout."""
+    if not u.any():
+        return problem.b
+    count(products=1)
+    return problem.b - apply_stiffness(problem.grid, problem.element, u)
 
 
 class _Route:

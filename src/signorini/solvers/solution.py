@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from signorini.solvers.count import count
+
 # A residual is a backward error; what it may be called, from the best name to the worst.
 SOLVED = 1e-10
 INACCURATE = 1e-6
@@ -65,6 +67,7 @@ def kkt_residual(problem, u):
         Dimensionless; infinite where u is not finite.
     multiplier : ndarray, shape (nc,)
     """
+    count(products=1)
     force = problem.apply(u) - problem.b
     multiplier = force[problem.contact]
     if not np.all(np.isfinite(force)):

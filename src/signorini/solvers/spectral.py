@@ -4,6 +4,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.solvers.contact import DenseContact
+from signorini.solvers.count import count
 
 _DENSE_UP_TO = 96
 _MAX_STEPS = 1000
@@ -31,11 +32,6 @@ class SpectralContact:
     basis : transforms.Basis
     symbol : ndarray, shape (n,)
         Eigenvalues of S in that basis, dimensionless; the first may be zero.
-
-    Attributes
-    ----------
-    products : int
-        Products with S so far.
     """
 
     def __init__(self, basis, symbol):
@@ -44,7 +40,6 @@ class SpectralContact:
         self.inverse = 1.0 / np.where(symbol > _EPS * symbol.max(), symbol, symbol.max() / symbol.size)
         self.size = symbol.size
         self.band = self.size * _EPS
-        self.products = 0
         self._last = np.zeros(self.size)
 
     def diagonal(self):
@@ -53,7 +48,7 @@ class SpectralContact:
 
     def apply(self, w):
         """S w for one vector or the rows of an array."""
-        self.products += 1
+        count(inner=w.size // self.size)
         return self.basis.mass * self.basis.backward(self.symbol * self.basis.forward(w))
 
     def apply_abs(self, w):

@@ -90,7 +90,7 @@ class Rival:
     install : str
         The command that installs it.
     adapter : str
-        ``"module:function"`` in this room; it takes (BoundProblem, tolerance, deadline), gives (x, claimed, iterations).
+        ``"module:function"`` in this room: (BoundProblem, tolerance, deadline) to (x, claimed, iterations).
     """
 
     name: str

@@ -44,7 +44,11 @@ def check_config():
     source = "config/config.yaml"
     document = load_yaml(source)
     if isinstance(document, dict):
-        document |= config
+        # Snakemake hands `--config quick=true` on as text.
+        spelled = {"true": True, "false": False}
+        document |= {
+            key: spelled.get(value, value) if isinstance(value, str) else value for key, value in config.items()
+        }
     return validated(document, load_yaml("workflow/schemas/config.schema.yaml"), source)
 
 

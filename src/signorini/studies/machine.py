@@ -1,0 +1,64 @@
+"""What a timing depends on besides the code: machine, versions, threads, load."""
+
+import os
+import platform
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+OURS = ("numpy", "scipy", "scikit-fem", "snakemake")
+
+
+def describe(packages=OURS):
+    """The machine and the programs at hand.
+
+    Parameters
+    ----------
+    packages : sequence of str
+        Distributions whose versions count.
+
+    Returns
+    -------
+    dict
+        ``processor``, ``cores``, ``memory`` (GB), ``system``, ``python``, ``blas``, ``threads`` (of a measured
+        process), ``load`` (average of the last minute), ``date``, and ``versions`` of the packages that are installed.
+    """
+    import numpy as np
+
+    blas = np.show_config(mode="dicts")["Build Dependencies"]["blas"]
+    return {
+        "processor": _of_file("/proc/cpuinfo", "model name") or platform.processor() or platform.machine(),
+        "cores": os.cpu_count(),
+        "memory": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
+        "system": f"{platform.system()} {platform.release()}",
+        "python": platform.python_version(),
+        "blas": f"{blas['name']} {blas['version']}",
+        "threads": int(os.environ.get("OMP_NUM_THREADS", os.cpu_count())),
+        "load": os.getloadavg()[0],
+        "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "versions": {name: found for name in packages if (found := _version(name))},
+    }
+
+
+def sentence(machine):
+    """What `describe` found, in a line of plain text."""
+    versions = ", ".join(f"{name} {number}" for name, number in machine["versions"].items())
+    threads = "one thread" if machine["threads"] == 1 else f"{machine['threads']} threads"
+    return (
+        f"{machine['processor']}, {machine['cores']} cores, {machine['memory']:g} GB, {machine['system']}; "
+        f"Python {machine['python']}, {versions}, BLAS {machine['blas']}; {threads} per process; "
+        f"load average {machine['load']:.2f} at the start, {machine['date']}"
+    )
+
+
+def _version(name):
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _of_file(path, key):
+    path = Path(path)
+    lines = path.read_text().splitlines() if path.is_file() else []
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith(key)), None)

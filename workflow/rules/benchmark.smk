@@ -1,0 +1,187 @@
+# `snakemake benchmark`: time, memory and error of every element and route, and of the rivals; config/benchmark.yaml says
+# of what. A measuring job takes all cores, so that nothing runs beside it.
+BENCHMARK = f"{STUDIES}/benchmark"
+BENCHMARK_FIGURES = ["error", "dofs", "growth", "stages", "rivals"]
+
+
+@cache
+@reported
+def measured():
+    """config/benchmark.yaml, checked, with what stands under quick in place of the rest where that is asked for."""
+    source = "config/benchmark.yaml"
+    asked = validated(load_yaml(source), load_yaml("workflow/schemas/benchmark.schema.yaml"), source)
+    return asked | (asked["quick"] if CONFIG["quick"] else {})
+
+
+def measured_levels(name):
+    """From the scene's coarsest level to the finest measured."""
+    n, levels = scene(name).levels[0], []
+    while n <= measured()["scenes"][name]["finest"]:
+        levels.append(n)
+        n *= 2
+    return levels
+
+
+def shown_levels(name):
+    """The levels whose errors count: four times coarser than a reference."""
+    finest = measured()["scenes"][name].get("reference", 4 * measured_levels(name)[-1]) // 4
+    return [n for n in measured_levels(name) if n <= finest]
+
+
+def points(wildcards):
+    from signorini.solvers import METHODS  # which needs NumPy: only where the benchmark is asked for
+
+    return [
+        f"{BENCHMARK}/points/{name}/{element}/{method}/n{n}.csv"
+        for name in measured()["scenes"]
+        for element in scene(name).elements
+        for method in METHODS
+        for n in measured_levels(name)
+    ]
+
+
+def point_before(wildcards):
+    n = int(wildcards.n)
+    return [str(Path(BENCHMARK, "points", *wildcards[:3], f"n{n // 2}.csv"))] * (n > scene(wildcards.scene).levels[0])
+
+
+def duels(wildcards):
+    from signorini.studies.rivals import RIVALS
+
+    return [
+        f"{BENCHMARK}/rivals/{name}/{element}/{rival}.csv"
+        for name in measured()["scenes"]
+        for element in scene(name).elements
+        for rival in RIVALS
+    ]
+
+
+def bending_files(wildcards):
+    """The errors of the scenes whose own reference is coarser than the benchmark's."""
+    asked = measured()["scenes"]
+    return [
+        f"results/{name}/errors.csv"
+        for name in asked
+        if asked[name].get("reference", 0) > scene(name).truth.get("n", 0)
+    ]
+
+
+rule benchmark_machine:
+    input:
+        library("benchmark_machine.py"),
+    output:
+        f"{BENCHMARK}/machine.json",
+    log:
+        f"{BENCHMARK}/logs/machine.log",
+    threads: workflow.cores
+    shell:
+        "python3 workflow/scripts/benchmark_machine.py --output {output:q} 2>&1 | tee {log:q}"
+
+
+rule benchmark_point:
+    input:
+        library("benchmark_point.py"),
+        machine=ancient(f"{BENCHMARK}/machine.json"),
+        before=point_before,
+        solution="results/{scene}/solutions/{element}/n{n}.npz",
+    output:
+        f"{BENCHMARK}/points/{{scene}}/{{element}}/{{method}}/n{{n}}.csv",
+    log:
+        f"{BENCHMARK}/logs/points/{{scene}}_{{element}}_{{method}}_n{{n}}.log",
+    threads: workflow.cores
+    params:
+        statement=statement,
+        repeats=lambda wildcards: as_json(measured()["repeats"]),
+        limits=lambda wildcards: as_json(measured()["limits"]),
+        before=lambda wildcards, input: f"--before {quote(str(input.before))}" if input.before else "",
+        warm_up=lambda wildcards: max(int(wildcards.n) // 2, scene(wildcards.scene).levels[0]),
+    shell:
+        "python3 workflow/scripts/benchmark_point.py --statement {params.statement:q} --scene {wildcards.scene}"
+        " --element {wildcards.element} --n {wildcards.n} --method {wildcards.method} --warm-up {params.warm_up}"
+        " --repeats {params.repeats:q} --limits {params.limits:q} {params.before} --solution {input.solution:q}"
+        " --output {output:q} 2>&1 | tee {log:q}"
+
+
+rule benchmark_rival:
+    input:
+        library("benchmark_rival.py"),
+        sorted(str(path) for path in SOURCE.glob("signorini/studies/rivals/*.py")),
+        machine=ancient(f"{BENCHMARK}/machine.json"),
+        mesh=mesh_file,
+    output:
+        f"{BENCHMARK}/rivals/{{scene}}/{{element}}/{{rival}}.csv",
+    log:
+        f"{BENCHMARK}/logs/rivals/{{scene}}_{{element}}_{{rival}}.log",
+    threads: workflow.cores
+    params:
+        statement=statement,
+        levels=lambda wildcards: as_json(measured()["rivals"]["levels"]),
+        seconds=lambda wildcards: measured()["rivals"]["seconds"],
+    shell:
+        "python3 workflow/scripts/benchmark_rival.py --statement {params.statement:q} --mesh {input.mesh:q}"
+        " --scene {wildcards.scene} --element {wildcards.element} --rival {wildcards.rival}"
+        " --levels {params.levels:q} --seconds {params.seconds} --output {output:q} 2>&1 | tee {log:q}"
+
+
+use rule reference as benchmark_reference with:
+    output:
+        f"{BENCHMARK}/references/{{scene}}.npz",
+    log:
+        f"{BENCHMARK}/logs/reference_{{scene}}.log",
+    benchmark:
+        f"{BENCHMARK}/benchmarks/reference_{{scene}}.tsv"
+    params:
+        statement=statement,
+        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
+        element="P1",
+        n=lambda wildcards: measured()["scenes"][wildcards.scene]["reference"],
+
+
+use rule errors as benchmark_errors with:
+    input:
+        library("errors.py"),
+        mesh=mesh_file,
+        reference=lambda wildcards: [f"{BENCHMARK}/references/{wildcards.scene}.npz"]
+        * (scene(wildcards.scene).truth["kind"] == "reference"),
+        solutions=lambda wildcards: [
+            f"results/{wildcards.scene}/solutions/{element}/n{n}.npz"
+            for element in scene(wildcards.scene).elements
+            for n in shown_levels(wildcards.scene)
+        ],
+    output:
+        f"{BENCHMARK}/errors/{{scene}}.csv",
+    log:
+        f"{BENCHMARK}/logs/errors_{{scene}}.log",
+    benchmark:
+        f"{BENCHMARK}/benchmarks/errors_{{scene}}.tsv"
+    params:
+        norms="l2,h1_semi,h1",
+        truth=truth_option,
+        quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
+
+
+rule benchmark_gather:
+    input:
+        library("benchmark_gather.py"),
+        points=points,
+        rivals=duels,
+        errors=lambda wildcards: [f"{BENCHMARK}/errors/{name}.csv" for name in measured()["scenes"]],
+        coarse=bending_files,
+    output:
+        points=f"{BENCHMARK}/benchmark.csv",
+        rivals=f"{BENCHMARK}/rivals.csv",
+        summary=f"{BENCHMARK}/summary.json",
+    log:
+        f"{BENCHMARK}/logs/gather.log",
+    params:
+        files=lambda wildcards, input: as_json(
+            {key: list(input[key]) for key in ("points", "rivals", "errors", "coarse")}
+        ),
+    shell:
+        "python3 workflow/scripts/benchmark_gather.py --files {params.files:q} --points {output.points:q}"
+        " --rivals {output.rivals:q} --summary {output.summary:q} 2>&1 | tee {log:q}"
+
+
+rule benchmark:
+    input:
+        f"{BENCHMARK}/benchmark.csv",

@@ -1,0 +1,22 @@
+"""Write down the machine, the versions and the load before anything is measured."""
+
+import json
+
+from stage import options, run
+
+from signorini.storage import write_text
+from signorini.studies.machine import OURS, describe, sentence
+from signorini.studies.rivals import RIVALS
+
+
+@options("--output")
+def main(arguments):
+    """To a JSON file."""
+    packages = [*OURS, *sorted({rival.package for rival in RIVALS.values()} - set(OURS))]
+    machine = describe(packages)
+    write_text(arguments.output, json.dumps(machine, indent=1) + "\n")
+    return sentence(machine)
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

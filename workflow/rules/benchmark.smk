@@ -10,7 +10,14 @@ def measured():
     """config/benchmark.yaml, checked, with what stands under quick in place of the rest where that is asked for."""
     source = "config/benchmark.yaml"
     asked = validated(load_yaml(source), load_yaml("workflow/schemas/benchmark.schema.yaml"), source)
-    return asked | (asked["quick"] if CONFIG["quick"] else {})
+    asked |= asked.get("quick", {}) if CONFIG["quick"] else {}
+    for name, part in asked["scenes"].items():
+        if scene(name).truth["kind"] != "exact" and "reference" not in part:
+            raise SignoriniError(
+                f"{source}: scenes.{name}.reference: missing; the scene has no exact solution, so name the level of a"
+                " reference, four times the last level whose error is shown"
+            )
+    return asked
 
 
 def measured_levels(name):
@@ -56,14 +63,16 @@ def duels(wildcards):
     ]
 
 
+def own_references():
+    """Scene -> level of its own reference, where it has one."""
+    truths = {name: scene(name).truth for name in measured()["scenes"]}
+    return {name: truth["n"] for name, truth in truths.items() if truth["kind"] == "reference"}
+
+
 def bending_files(wildcards):
     """The errors of the scenes whose own reference is coarser than the benchmark's."""
     asked = measured()["scenes"]
-    return [
-        f"results/{name}/errors.csv"
-        for name in asked
-        if asked[name].get("reference", 0) > scene(name).truth.get("n", 0)
-    ]
+    return [f"results/{name}/errors.csv" for name, n in own_references().items() if asked[name]["reference"] > n]
 
 
 rule benchmark_machine:
@@ -182,6 +191,43 @@ rule benchmark_gather:
         " --rivals {output.rivals:q} --summary {output.summary:q} 2>&1 | tee {log:q}"
 
 
+rule benchmark_figure:
+    input:
+        library("figure_benchmark.py"),
+        points=f"{BENCHMARK}/benchmark.csv",
+        rivals=f"{BENCHMARK}/rivals.csv",
+        summary=f"{BENCHMARK}/summary.json",
+    output:
+        pdf=f"{BENCHMARK}/benchmark_{{figure}}.pdf",
+        png=f"{BENCHMARK}/benchmark_{{figure}}.png",
+    log:
+        f"{BENCHMARK}/logs/figure_{{figure}}.log",
+    shell:
+        "python3 workflow/scripts/figure_benchmark.py --figure {wildcards.figure} --points {input.points:q}"
+        " --rivals {input.rivals:q} --summary {input.summary:q} {output:q} 2>&1 | tee {log:q}"
+
+
+rule benchmark_report:
+    input:
+        library("benchmark_report.py"),
+        points=f"{BENCHMARK}/benchmark.csv",
+        rivals=f"{BENCHMARK}/rivals.csv",
+        summary=f"{BENCHMARK}/summary.json",
+        machine=ancient(f"{BENCHMARK}/machine.json"),
+    output:
+        tex=f"{BENCHMARK}/benchmark.tex",
+        markdown=f"{BENCHMARK}/benchmark.md",
+    log:
+        f"{BENCHMARK}/logs/report.log",
+    params:
+        asked=lambda wildcards: as_json(measured() | {"truths": own_references()}),
+    shell:
+        "python3 workflow/scripts/benchmark_report.py --points {input.points:q} --rivals {input.rivals:q}"
+        " --summary {input.summary:q} --machine {input.machine:q} --asked {params.asked:q} --tex {output.tex:q}"
+        " --markdown {output.markdown:q} 2>&1 | tee {log:q}"
+
+
 rule benchmark:
     input:
-        f"{BENCHMARK}/benchmark.csv",
+        multiext(f"{BENCHMARK}/benchmark", ".csv", ".tex", ".md"),
+        expand(f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}", figure=BENCHMARK_FIGURES, ending=["pdf", "png"]),

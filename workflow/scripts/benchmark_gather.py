@@ -5,9 +5,10 @@ from pathlib import Path
 
 from stage import options, run
 
-from signorini.storage import read_csv, write_csv, write_text
-from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.storage import read_csv, write_csv, write_json
+from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
 from signorini.studies.benchmark_summary import summary, with_errors
+from signorini.studies.rivals import RIVALS
 
 
 @options("--files", "--points", "--rivals", "--summary")
@@ -20,14 +21,18 @@ def main(arguments):
     rivals = rows_of(files["rivals"], RIVAL_NUMBERS)
     write_csv(arguments.points, points)
     write_csv(arguments.rivals, rivals)
-    write_text(arguments.summary, json.dumps(summary(points, rivals, coarse, errors), indent=1) + "\n")
+    titles = {name: rival.title for name, rival in RIVALS.items()}
+    write_json(arguments.summary, summary(points, rivals, coarse, errors) | {"titles": titles})
     measured = sum(row["status"] == "measured" for row in points)
     return f"benchmark: {measured} points measured, {len(points) - measured} left out; {len(rivals)} rows of rivals"
 
 
 def rows_of(paths, numbers):
     """The rows of many files of the same columns."""
-    return [row for path in paths for row in read_csv(path, numbers=numbers)]
+    rows = [row for path in paths for row in read_csv(path, numbers=numbers)]
+    for row in rows:
+        row.update({key: int(row[key]) for key in WHOLE if row.get(key) is not None})
+    return rows
 
 
 if __name__ == "__main__":

@@ -1,10 +1,8 @@
 """Write down the machine, the versions and the load before anything is measured."""
 
-import json
-
 from stage import options, run
 
-from signorini.storage import write_text
+from signorini.storage import write_json
 from signorini.studies.machine import OURS, describe, sentence
 from signorini.studies.rivals import RIVALS
 
@@ -14,7 +12,7 @@ def main(arguments):
     """To a JSON file."""
     packages = [*OURS, *sorted({rival.package for rival in RIVALS.values()} - set(OURS))]
     machine = describe(packages)
-    write_text(arguments.output, json.dumps(machine, indent=1) + "\n")
+    write_json(arguments.output, machine)
     return sentence(machine)
 
 

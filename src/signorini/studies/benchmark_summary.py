@@ -103,9 +103,9 @@ def better(rows):
     -------
     dict
         Cost -> (element, how many times more the other one pays). For ``total`` the element is None where the ranges of
-        the measured times overlap. Empty unless there are two.
+        the measured times overlap. Empty unless there are two, both between levels.
     """
-    if len(rows) != 2:
+    if [row["status"] for row in rows.values()] != ["between levels"] * 2:
         return {}
     (one, a), (other, b) = rows.items()
     found = {}

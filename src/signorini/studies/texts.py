@@ -1,0 +1,93 @@
+"""Words, numbers and tables of the studies' pages, in LaTeX and in Markdown."""
+
+from dataclasses import dataclass
+
+from signorini.macros import ESCAPES
+
+
+@dataclass(frozen=True)
+class Table:
+    """Cells of plain text: a header, rows, and the caption; a row of one cell is a heading within the table."""
+
+    header: tuple
+    rows: list
+    caption: str = ""
+
+
+def tex(text):
+    """Plain text as LaTeX."""
+    return str(text).translate(str.maketrans(ESCAPES)).replace("≤", r"$\le$").replace("×", r"$\times$")
+
+
+def tex_table(table, label, more=""):
+    """A floating table; the first column is aligned left, all others right. `more`, in LaTeX, ends the caption."""
+    width = len(table.header)
+    lines = [
+        r"\begin{table}[tp]",
+        r"\centering\scriptsize\setlength{{\tabcolsep}}{{2.5pt}}",
+        rf"\caption{{{tex(table.caption)}{more}}}\label{{tab:{label}}}",
+        rf"\begin{{tabular}}{{l{'r' * (width - 1)}}}",
+        r"\toprule",
+        _tex_row(table.header),
+        r"\midrule",
+        *(_heading(row[0], width) if len(row) == 1 else _tex_row(row) for row in table.rows),
+        r"\bottomrule",
+        r"\end{tabular}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _tex_row(cells):
+    return " & ".join(map(tex, cells)) + r" \\"
+
+
+def _heading(text, width):
+    return rf"\addlinespace\multicolumn{{{width}}}{{l}}{{\emph{{{tex(text)}}}}} \\"
+
+
+def markdown_table(table):
+    """The same in Markdown, its caption above."""
+    width = len(table.header)
+    rows = [[f"*{row[0]}*", *[""] * (width - 1)] if len(row) == 1 else row for row in table.rows]
+    lines = [table.header, [":---", *["---:"] * (width - 1)], *rows]
+    body = "".join(f"| {' | '.join(map(str, line))} |\n" for line in lines)
+    return f"{table.caption}\n\n{body}" if table.caption else body
+
+
+def tex_figure(name, caption, label):
+    """A floating figure of the file name.pdf, unscaled; the caption is LaTeX."""
+    return (
+        f"\\begin{{figure}}[tp]\n\\centering\\includegraphics{{{name}.pdf}}\n"
+        f"\\caption{{{caption}}}\\label{{fig:{label}}}\n\\end{{figure}}\n"
+    )
+
+
+def seconds(value):
+    """A time with two digits, in the unit that suits it."""
+    for size, unit in ((0.9995, "s"), (0.9995e-3, "ms")):
+        if value >= size:
+            return f"{_two_digits(value / (1.0 if unit == 's' else 1e-3))} {unit}"
+    return f"{_two_digits(value / 1e-6)} us"
+
+
+def thousands(value):
+    """A count with two digits and k or M."""
+    for size, unit in ((1e6, " M"), (1e3, " k")):
+        if value >= 0.995 * size:
+            return f"{_two_digits(value / size)}{unit}"
+    return f"{value:.0f}"
+
+
+def megabytes(value):
+    """Bytes, in MB with two digits; less than a tenth is not worth a digit."""
+    return f"{_two_digits(value / 1e6)} MB" if value >= 1e5 else "<0.1 MB"
+
+
+def _two_digits(value):
+    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
+
+
+def factor(value):
+    """A ratio with two digits."""
+    return f"{value:.2f}" if value < 0.995 else _two_digits(value)

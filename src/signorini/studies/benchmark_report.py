@@ -139,14 +139,15 @@ class Report:
                     verdict = better(found)
                     winners = [_winner(verdict.get(cost)) for cost in ("total", "dofs", "memory")]
                     rows.append([scene if target == TARGETS[0] else "", f"{target:.0e}", *cells, *winners])
-        each = [cell for name in self.elements() for cell in (f"{name} time", "route", "unknowns", "memory")]
+        each = ("time", "", "unknowns", "MB") * len(self.elements())
+        groups = (("", 2), *((name, 4) for name in self.elements()), ("more accurate per", 3))
         caption = (
             "What an error costs each element by its fastest route (initials: "
             f"{', '.join(self.methods())}), interpolated between levels; ≤: the coarsest level is better already; "
             "--: not reached. Then which element is more accurate per second, per unknown and per byte, as the factor "
             "that the other one pays; even: the ranges of the times overlap."
         )
-        return Table(("scene", "error", *each, "per second", "per unknown", "per byte"), rows, caption)
+        return Table(("scene", "error", *each, "second", "unknown", "byte"), rows, caption, groups)
 
     def growth_table(self):
         """Exponents of time and memory, and time per unknown on the finest level."""
@@ -165,7 +166,7 @@ class Report:
             "finest h",
             "unknowns",
             "time",
-            "memory",
+            "MB",
             "bytes per unknown",
             "exponent of time",
             "of memory",
@@ -213,31 +214,29 @@ class Report:
         )
         return (
             "Rivals solve the same matrices, assembled beforehand, in turn with each of our routes, at "
-            f"h = {levels}, as far as one solve takes no more than {asked['seconds']:g} s; ours include the proof. They "
-            "are asked for a tolerance of 1e-9 and judged by our residual: solved up to 1e-10, inaccurate up to 1e-6. "
-            "Over all pairs of a rival and a route of ours in which the rival did not fail, ours was faster in "
+            f"h = {levels}, as far as one solve takes no more than {asked['seconds']:g} s; ours include the proof. "
+            "They are asked for a tolerance of 1e-9 and judged by our residual: solved up to 1e-10, inaccurate up to "
+            "1e-6. Over all pairs of a rival and a route of ours in which the rival did not fail, ours was faster in "
             f"{losses}, the rival in {wins}, and in {even} the ranges overlap."
             + (f" Not installed: {', '.join(absent)}." if absent else "")
         )
 
     def duel_table(self):
         """Per rival: what became of its problems, and its time over each of our routes."""
-        found = {(row["rival"], row["ours"]): row for row in self.summary["duels"]}
-        rows = []
-        for name, counts in self.summary["verdicts"].items():
-            if counts["absent"]:
-                continue
-            fate = [counts[key] for key in ("solved", "inaccurate", "failed", "wrong", "left out")]
-            rows.append(
-                [self.title(name), *fate, *(c for ours in self.routes() for c in _duel_cells(found.get((name, ours))))]
-            )
-        each = [cell for ours in self.routes() for cell in (f"/ {ours}", "range", "w/e/l")]
+        verdicts, rows, before = self.summary["verdicts"], [], None
+        for row in sorted(self.summary["duels"], key=lambda row: self.title(row["rival"]).lower()):
+            fate = [verdicts[row["rival"]][key] for key in ("solved", "inaccurate", "failed", "wrong", "left out")]
+            first = [""] * 6 if row["rival"] == before else [self.title(row["rival"]), *fate]
+            times = [factor(row["ratio"]), f"{factor(row['ratio_min'])} to {factor(row['ratio_max'])}"]
+            rows.append([*first, row["ours"], *times, row["wins"], row["even"], row["losses"]])
+            before = row["rival"]
         caption = (
             "Rivals: problems solved, solved inaccurately, failed, claimed but wrong (among the failed), and scenes "
             "with an element left for want of time; their time over ours, geometric mean and range, and how often they "
-            "win, are even, or lose."
+            "win (w), are even (e), or lose (l)."
         )
-        return Table(("rival", "solved", "inacc.", "failed", "wrong", "left", *each), rows, caption)
+        header = ("rival", "solved", "inaccurate", "failed", "wrong", "left", "ours", "mean", "range", "w", "e", "l")
+        return Table(header, rows, caption, (("", 1), ("problems", 5), ("time of the rival / ours", 6)))
 
     def ratio_table(self, ours):
         """The ratios to one of our routes, a row per problem, a column per rival."""
@@ -294,16 +293,6 @@ def _winner(verdict):
         return ""
     element, ratio = verdict
     return f"{element or 'even'} {factor(ratio)}"
-
-
-def _duel_cells(row):
-    if row is None:
-        return ["--"] * 3
-    return [
-        factor(row["ratio"]),
-        f"{factor(row['ratio_min'])}-{factor(row['ratio_max'])}",
-        f"{row['wins']}/{row['even']}/{row['losses']}",
-    ]
 
 
 def _ratio(row):

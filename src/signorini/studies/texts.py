@@ -7,11 +7,22 @@ from signorini.macros import ESCAPES
 
 @dataclass(frozen=True)
 class Table:
-    """Cells of plain text: a header, rows, and the caption; a row of one cell is a heading within the table."""
+    """Cells of plain text.
+
+    Parameters
+    ----------
+    header : sequence of str
+    rows : sequence of sequence of str
+        A row of one cell is a heading within the table.
+    caption : str
+    groups : sequence of (str, int), optional
+        Titles above so many columns each, of all columns; an empty title is none.
+    """
 
     header: tuple
     rows: list
     caption: str = ""
+    groups: tuple = ()
 
 
 def tex(text):
@@ -24,10 +35,11 @@ def tex_table(table, label, more=""):
     width = len(table.header)
     lines = [
         r"\begin{table}[tp]",
-        r"\centering\scriptsize\setlength{{\tabcolsep}}{{2.5pt}}",
+        r"\centering\scriptsize\setlength{\tabcolsep}{3pt}",
         rf"\caption{{{tex(table.caption)}{more}}}\label{{tab:{label}}}",
         rf"\begin{{tabular}}{{l{'r' * (width - 1)}}}",
         r"\toprule",
+        *_tex_groups(table.groups),
         _tex_row(table.header),
         r"\midrule",
         *(_heading(row[0], width) if len(row) == 1 else _tex_row(row) for row in table.rows),
@@ -36,6 +48,17 @@ def tex_table(table, label, more=""):
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _tex_groups(groups):
+    if not groups:
+        return
+    yield " & ".join(rf"\multicolumn{{{span}}}{{c}}{{{tex(title)}}}" for title, span in groups) + r" \\"
+    first = 1
+    for title, span in groups:
+        if title:
+            yield rf"\cmidrule(lr){{{first}-{first + span - 1}}}"
+        first += span
 
 
 def _tex_row(cells):
@@ -50,7 +73,9 @@ def markdown_table(table):
     """The same in Markdown, its caption above."""
     width = len(table.header)
     rows = [[f"*{row[0]}*", *[""] * (width - 1)] if len(row) == 1 else row for row in table.rows]
-    lines = [table.header, [":---", *["---:"] * (width - 1)], *rows]
+    groups = [title for title, span in table.groups for _ in range(span)] or [""] * width
+    header = [f"{title} {name}".strip() for title, name in zip(groups, table.header, strict=True)]
+    lines = [header, [":---", *["---:"] * (width - 1)], *rows]
     body = "".join(f"| {' | '.join(map(str, line))} |\n" for line in lines)
     return f"{table.caption}\n\n{body}" if table.caption else body
 
@@ -80,8 +105,8 @@ def thousands(value):
 
 
 def megabytes(value):
-    """Bytes, in MB with two digits; less than a tenth is not worth a digit."""
-    return f"{_two_digits(value / 1e6)} MB" if value >= 1e5 else "<0.1 MB"
+    """Bytes as a number of MB with two digits; less than a tenth is not worth a digit."""
+    return _two_digits(value / 1e6) if value >= 1e5 else "<0.1"
 
 
 def _two_digits(value):

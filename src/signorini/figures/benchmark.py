@@ -1,5 +1,7 @@
 """The benchmark's figures: time and unknowns against error, growth, where time goes, rivals."""
 
+import math
+
 import matplotlib
 
 from signorini.figures.convergence import ELEMENTS
@@ -39,7 +41,7 @@ def draw_error(series):
             for row in shown:
                 place = {"xytext": (0, 2.5 if element == "P1" else -2.5), "textcoords": "offset points"}
                 align = {"ha": "center", "va": "bottom" if element == "P1" else "top"}
-                axes.annotate(f"{row['n']:g}", (row["total"], row[norm]), fontsize=4, color=GREY, **place, **align)
+                axes.annotate(f"{row['n']:g}", (row["total"], row[norm]), fontsize=4.5, color=GREY, **place, **align)
     _finish(figure, panels, "seconds", NORMS)
     return figure
 
@@ -186,12 +188,19 @@ def _finish(figure, panels, xlabel, ylabels, every=False):
         axes.set(xscale="log", yscale="log", ylabel=ylabels[key])
         axes.set_title(scene, fontsize=7, pad=2)
         axes.minorticks_off()
+        _whole_decades(axes)
         if scene == scenes[-1]:
             axes.set_xlabel(xlabel)
         if every or scene == scenes[0]:
             axes.legend(
                 loc="upper left" if every else "upper right", handlelength=3, borderaxespad=0.1, labelspacing=0.2
             )
+
+
+def _whole_decades(axes):
+    """Let the ordinates run over whole decades, at least one."""
+    low, high = (math.log10(value) for value in (axes.dataLim.y0, axes.dataLim.y1))
+    axes.set_ylim(10.0 ** math.floor(low), 10.0 ** max(math.ceil(high), math.floor(low) + 1))
 
 
 def _style(series, element, method):

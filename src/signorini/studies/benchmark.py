@@ -115,7 +115,7 @@ def why_not(before, limits):
         return None
     if before["status"] != "measured":
         return before["note"]
-    seconds = _GROWTH["seconds"] * float(before["total"])
+    seconds = _GROWTH["seconds"] * float(before["total_min"])
     megabytes = _GROWTH["memory"] * float(before["memory"]) / 1e6
     if seconds > limits["seconds"]:
         return f"about {seconds:.0f} s foreseen, the limit is {limits['seconds']:g} s"

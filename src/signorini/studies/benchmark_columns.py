@@ -28,5 +28,8 @@ RIVAL = (*_DUEL, *RIVAL_NUMBERS)
 `status` is "solved", "inaccurate" or "failed" by our residual, "absent" (`note`: how to install it) or "left out";
 `claimed` what the rival says; `difference` that of u, relative; `auto` whether "auto" takes this route."""
 
+TOLERANCE = 1e-9
+"""Asked of the rivals; ours have none to ask for."""
+
 WHOLE = ("n", "dofs", "repeats", "memory", "peak", "iterations", *COUNTS, "claimed", "auto")
 """Of both tables, the columns of whole numbers."""

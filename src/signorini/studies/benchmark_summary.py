@@ -11,6 +11,7 @@ NORMS = ("l2", "h1")
 TARGETS = (1e-1, 1e-2, 1e-3, 1e-4)
 COSTS = ("total", "total_min", "total_max", "dofs", "memory")
 _FLOOR = {"memory": 4096}  # bytes: it is measured in pages, and a coarse level may need none that are new
+_TOLD = 1e5  # bytes: less is round-off of the allocator
 _FITTED = 4  # finest levels that an exponent is fitted to
 
 
@@ -103,7 +104,8 @@ def better(rows):
     -------
     dict
         Cost -> (element, how many times more the other one pays). For ``total`` the element is None where the ranges of
-        the measured times overlap. Empty unless there are two, both between levels.
+        the measured times overlap; ``memory`` is absent below what can be told. Empty unless there are two, both
+        between levels.
     """
     if [row["status"] for row in rows.values()] != ["between levels"] * 2:
         return {}
@@ -112,6 +114,8 @@ def better(rows):
     for cost in ("total", "dofs", "memory"):
         x, y = _at_least(a, cost), _at_least(b, cost)
         found[cost] = (one if x < y else other, max(x, y) / min(x, y))
+    if min(a["memory"], b["memory"]) < _TOLD:
+        del found["memory"]
     if a["total_min"] <= b["total_max"] and b["total_min"] <= a["total_max"]:
         found["total"] = (None, found["total"][1])
     return found

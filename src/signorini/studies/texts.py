@@ -1,5 +1,6 @@
 """Words, numbers and tables of the studies' pages, in LaTeX and in Markdown."""
 
+import re
 from dataclasses import dataclass
 
 from signorini.macros import ESCAPES
@@ -26,8 +27,15 @@ class Table:
 
 
 def tex(text):
-    """Plain text as LaTeX."""
-    return str(text).translate(str.maketrans(ESCAPES)).replace("≤", r"$\le$").replace("×", r"$\times$")
+    """Plain text as LaTeX, with minus signs, powers of ten and thin spaces where there are numbers."""
+    text = str(text).translate(str.maketrans(ESCAPES)).replace("≤", r"$\le$").replace(r" \%", r"\,\%")
+    text = re.sub(r"\b(\d[\d.]*)e([+-])0*(\d+)", _power, text)
+    return re.sub(r"(?<![\w{}])-(?=\d)", "$-$", text)
+
+
+def _power(found):
+    mantissa, sign, exponent = found.groups()
+    return rf"${'' if mantissa == '1' else mantissa + r'\times'}10^{{{sign.strip('+')}{exponent}}}$"
 
 
 def tex_table(table, label, more=""):
@@ -89,11 +97,8 @@ def tex_figure(name, caption, label):
 
 
 def seconds(value):
-    """A time with two digits, in the unit that suits it."""
-    for size, unit in ((0.9995, "s"), (0.9995e-3, "ms")):
-        if value >= size:
-            return f"{_two_digits(value / (1.0 if unit == 's' else 1e-3))} {unit}"
-    return f"{_two_digits(value / 1e-6)} us"
+    """A time with two digits, in s or ms."""
+    return f"{factor(value)} s" if value >= 0.995 else f"{factor(1e3 * value)} ms"
 
 
 def thousands(value):

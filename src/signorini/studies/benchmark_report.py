@@ -20,7 +20,7 @@ NAMES = {"l2": "L2", "h1": "H1"}
 FIGURES = {
     "error": "Time against error; labels are 1/h, whiskers the least and the largest time.",
     "dofs": "Unknowns against error; the routes of an element share a curve.",
-    "growth": "Time and memory against unknowns; in the legends the exponents fitted to the finest four levels.",
+    "growth": "Time and memory against unknowns; in the legends exponents, fitted to the finest levels, at most four.",
     "stages": "Where time goes on the finest level of each series; on the right the total.",
     "rivals": "Time of the rivals over ours on the same matrices, a point for each scene, element (P1 black, CR blue) "
     "and level (coarsest on top), with the range over the pairs; hollow where the rival failed by our residual.",
@@ -172,7 +172,7 @@ class Report:
             "exponent of time",
             "of memory",
         )
-        return Table(header, rows, "Exponents are fitted to the finest four levels.")
+        return Table(header, rows, "Exponents are fitted to the finest levels, at most four.")
 
     def counts_table(self):
         """What the routes did on the finest level of each series."""
@@ -217,8 +217,8 @@ class Report:
             "Rivals solve the same matrices, assembled beforehand, in turn with each of our routes, at "
             f"h = {levels}, as far as one solve takes no more than {asked['seconds']:g} s; ours include the proof. "
             f"They are asked for a tolerance of {TOLERANCE:g} and judged by our residual: solved up to {SOLVED:g}, "
-            f"inaccurate up to {INACCURATE:g}. Over all pairs of a rival and a route of ours in which the rival did not fail, ours was faster in "
-            f"{losses}, the rival in {wins}, and in {even} the ranges overlap."
+            f"inaccurate up to {INACCURATE:g}. Over all pairs of a rival and a route of ours in which the rival did "
+            f"not fail, ours was faster in {losses}, the rival in {wins}, and in {even} the ranges overlap."
             + (f" Not installed: {', '.join(absent)}." if absent else "")
         )
 

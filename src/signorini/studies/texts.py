@@ -35,7 +35,8 @@ def tex(text):
 
 def _power(found):
     mantissa, sign, exponent = found.groups()
-    return rf"${'' if mantissa == '1' else mantissa + r'\times'}10^{{{sign.strip('+')}{exponent}}}$"
+    times = "" if mantissa == "1" else rf"{mantissa}\times"
+    return rf"${times}10^{{{sign.strip('+')}{exponent}}}$"
 
 
 def tex_table(table, label, more=""):

@@ -4,6 +4,8 @@ import csv
 import re
 
 import pytest
+from project import modules_of
+from test_jobs import inputs_of_scripts, left_out
 
 from signorini.solvers import METHODS
 from signorini.studies.rivals import RIVALS
@@ -29,8 +31,8 @@ def built(tmp_path_factory, built_small):
     """The quick benchmark of the small scene, on top of its own build."""
     project = built_small.copy(tmp_path_factory.mktemp("benchmark") / "project")
     project.write("config/benchmark.yaml", LITTLE)
-    run = project.build(*QUICK)
-    return project, run
+    spied = tmp_path_factory.mktemp("spied") / "benchmark"
+    return project, project.spied_build(spied, *QUICK), spied
 
 
 def rows(project, name):
@@ -39,7 +41,7 @@ def rows(project, name):
 
 
 def test_every_element_route_and_level_is_measured(built):
-    project, run = built
+    project, run, _ = built
     assert run.jobs["benchmark_point"] == POINTS
     assert run.jobs["benchmark_rival"] == DUELS
     found = rows(project, "benchmark.csv")
@@ -74,6 +76,26 @@ def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not
     assert not (built[0] / "results/studies").exists()
 
 
+def test_what_a_job_imports_is_among_its_inputs(built):
+    project, _, spied = built
+    inputs = inputs_of_scripts(project.build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text)
+    imports = {script: modules for script, modules in modules_of(spied).items() if "benchmark" in script}
+    assert len(imports) == 6
+    missing = {script: left_out(modules, inputs[script]) for script, modules in imports.items()}
+    assert missing == {script: [] for script in imports}
+    assert {script for script in imports if "matplotlib" in imports[script]} == {"figure_benchmark.py"}
+
+
+def test_rivals_are_inputs_of_their_duels(built):
+    inputs = inputs_of_scripts(built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text)
+    needed = {
+        "src/signorini/studies/rivals/quadratic.py",
+        "src/signorini/solvers/direct.py",
+        "src/signorini/mesh/grid.py",
+    }
+    assert needed <= inputs["benchmark_rival.py"]
+
+
 def test_there_is_nothing_left_to_do(built):
     assert built[0].jobs(*QUICK) == {}
 
@@ -92,7 +114,7 @@ def test_a_killed_run_goes_on_where_it_was(built, tmp_path):
     folder = project / "results/quick/benchmark"
     lost = folder / "points/small/CR/direct"
     before = {path: path.read_bytes() for path in folder.glob("points/*/*/*/*.csv") if path.parent != lost}
-    for name in ("points/small/CR/direct/n4.csv", "benchmark.csv", "summary.json"):
+    for name in ("points/small/CR/direct/n4.csv", "benchmark.csv", "summary.json", "benchmark.tex", "benchmark.md"):
         (folder / name).unlink()
     run = project.build(*QUICK)
     assert run.jobs["benchmark_point"] == 1

@@ -134,9 +134,11 @@ rule benchmark_figure:
         " --rivals {input.rivals:q} --summary {input.summary:q} {output:q} 2>&1 | tee {log:q}"
 
 
-rule benchmark_report:
+# The page comes last, so that where it is there are its figures.
+rule benchmark:
     input:
         library("benchmark_report.py"),
+        expand(f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}", figure=BENCHMARK_FIGURES, ending=["pdf", "png"]),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
         summary=f"{BENCHMARK}/summary.json",
@@ -152,9 +154,3 @@ rule benchmark_report:
         "python3 workflow/scripts/benchmark_report.py --points {input.points:q} --rivals {input.rivals:q}"
         " --summary {input.summary:q} --machine {input.machine:q} --asked {params.asked:q} --tex {output.tex:q}"
         " --markdown {output.markdown:q} 2>&1 | tee {log:q}"
-
-
-rule benchmark:
-    input:
-        multiext(f"{BENCHMARK}/benchmark", ".csv", ".tex", ".md"),
-        expand(f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}", figure=BENCHMARK_FIGURES, ending=["pdf", "png"]),

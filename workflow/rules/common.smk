@@ -38,17 +38,18 @@ def reported(function):
     return called
 
 
+def truth_value(value):
+    """Of a value from the command line, where Snakemake reads True and False, but leaves YAML's true and false a text."""
+    return value == "true" if value in ("true", "false") else value
+
+
 @reported
 def check_config():
     """config.yaml, read strictly, under what the command line says."""
     source = "config/config.yaml"
     document = load_yaml(source)
     if isinstance(document, dict):
-        # Snakemake hands `--config quick=true` on as text.
-        spelled = {"true": True, "false": False}
-        document |= {
-            key: spelled.get(value, value) if isinstance(value, str) else value for key, value in config.items()
-        }
+        document |= {key: truth_value(value) for key, value in config.items()}
     return validated(document, load_yaml("workflow/schemas/config.schema.yaml"), source)
 
 

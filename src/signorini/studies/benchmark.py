@@ -53,6 +53,7 @@ def measure(statement, element, n, method, repeats, warm_up):
             len(runs) < repeats["most"] and time.perf_counter() - begun < repeats["seconds"]
         ):
             problem = solution = None
+            gc.collect()
             seconds, work, problem, solution = _run(statement, element, n, method)
             runs.append(seconds)
     except SolverError as error:

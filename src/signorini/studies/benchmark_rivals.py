@@ -130,6 +130,7 @@ def guarded(function, arguments, seconds):
         while here.poll(seconds):
             message = here.recv()
             if message is None:
+                process.join(seconds)
                 return found, None
             found.append(message)
         return found, f"no answer within {seconds:g} s"

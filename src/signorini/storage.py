@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 import os
 import tempfile
 import zipfile
@@ -73,6 +74,19 @@ def read_csv(path, numbers=()):
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise StorageError(f"{path}: not a readable table ({error}); mend it, or delete it and rerun") from error
     return rows
+
+
+def write_json(path, value):
+    """Write lists, dicts, text and numbers as JSON."""
+    write_text(path, json.dumps(value, indent=1) + "\n")
+
+
+def read_json(path):
+    """Read what `write_json` wrote."""
+    try:
+        return json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise StorageError(f"{path}: truncated or altered ({error}); delete it and rerun") from error
 
 
 def write_npz(path, kind, **arrays):

@@ -1,5 +1,6 @@
 """Words, numbers and tables of the studies' pages, in LaTeX and in Markdown."""
 
+import re
 from dataclasses import dataclass
 
 from signorini.macros import ESCAPES
@@ -26,8 +27,22 @@ class Table:
 
 
 def tex(text):
-    """Plain text as LaTeX."""
-    return str(text).translate(str.maketrans(ESCAPES)).replace("≤", r"$\le$").replace("×", r"$\times$")
+    """Plain text as LaTeX, with minus signs, powers of ten and thin spaces where there are numbers."""
+    text = (
+        str(text)
+        .translate(str.maketrans(ESCAPES))
+        .replace("≤", r"$\le$")
+        .replace("×", r"$\times$")
+        .replace(r" \%", r"\,\%")
+    )
+    text = re.sub(r"\b(\d[\d.]*)e([+-])0*(\d+)", _power, text)
+    return re.sub(r"(?<![\w{}])-(?=\d)", "$-$", text)
+
+
+def _power(found):
+    mantissa, sign, exponent = found.groups()
+    times = "" if mantissa == "1" else rf"{mantissa}\times"
+    return rf"${times}10^{{{sign.strip('+')}{exponent}}}$"
 
 
 def tex_table(table, label, more=""):

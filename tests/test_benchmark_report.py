@@ -147,7 +147,7 @@ def test_a_ratio_of_a_failed_rival_is_marked(report):
     [
         (texts.seconds, 2.345, "2.3 s"),
         (texts.seconds, 0.9949, "995 ms"),
-        (texts.seconds, 0.00012, "0.12 ms"),
+        (texts.seconds, 0.00012, "120 us"),
         (texts.thousands, 42, "42"),
         (texts.thousands, 1234, "1.2 k"),
         (texts.thousands, 12_600_000, "13 M"),

@@ -24,7 +24,7 @@ def met(name="superlu", levels=(2, 4), limit=60.0):
 def test_a_duel_has_a_row_per_level_and_route():
     found = met()
     assert [[(row["n"], row["ours"]) for row in rows] for rows in found] == [
-        [(n, "fourier"), (n, "direct")] for n in (2, 4)
+        [(n, "fourier"), (n, "direct"), (n, "multigrid")] for n in (2, 4)
     ]
     for row in (row for rows in found for row in rows):
         assert (row["status"], row["claimed"]) == ("solved", 1)
@@ -43,7 +43,10 @@ def test_ratios_are_of_pairs():
 
 def test_only_routes_that_apply_are_met():
     problem = discretize_on(delaunay(0), "P1", STATEMENT)
-    assert [row["ours"] for row in benchmark_rivals._level(rivals.RIVALS["superlu"], problem, 60.0)] == ["direct"]
+    assert [row["ours"] for row in benchmark_rivals._level(rivals.RIVALS["superlu"], problem, 60.0)] == [
+        "direct",
+        "multigrid",
+    ]
 
 
 def test_finer_levels_are_left_out_when_time_runs_out():

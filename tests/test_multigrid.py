@@ -123,7 +123,7 @@ def test_needles_are_solved_or_refused(element):
     mesh = delaunay(5, inner=2000, side=40)
     problem = discretize_on(mesh, element, statement(**DATA))
     if element == "CR":
-        with pytest.raises(SolverError, match=r"too stretched.*set solver\.method to direct"):
+        with pytest.raises(SolverError, match=r"multigrid does not apply, there are cells \d+ times as long as high"):
             solve(problem, "multigrid")
         return
     assert_allclose(solve(problem, "multigrid").u, solve(problem, "direct").u, rtol=0, atol=1e-9)

@@ -75,10 +75,10 @@ def build_hierarchy(problem):
 
 def is_nested(mesh):
     """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
-    return mesh.coarser() is not None and _stretch(mesh) <= _STRETCHED
+    return mesh.coarser() is not None and stretch_of(mesh) <= _STRETCHED
 
 
-def _stretch(mesh):
+def stretch_of(mesh):
     """The largest ratio of a triangle's longest edge to the height on it, dimensionless."""
     largest = 0.0
     for cells in blocks(mesh.number_of_triangles):

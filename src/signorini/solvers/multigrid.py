@@ -15,15 +15,23 @@ from signorini.exceptions import SolverError
 from signorini.memory import MULTIGRID, check_memory
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
-from signorini.solvers.hierarchy import HALF, Cycle, build_hierarchy
+from signorini.solvers.hierarchy import HALF, Cycle, build_hierarchy, stretch_of
 
 _TOLERANCE = 1e-14  # estimated error on the finest level, of max |u|; or the accuracy, where it is worse
 _MAX_STEPS = 300
 _EPS = np.finfo(float).eps
 _TOUCHING = 8.0  # estimated errors within which a gap is none
+_NEEDLES = 100.0  # stretched cells on which CR converges with no levels; measured
 _PATIENCE = 60  # steps without half the error before giving up
 
 _log = logging.getLogger(__name__)
+
+
+def obstruction(problem):
+    """Say why the route does not apply to a problem, or None where it does."""
+    if problem.element == "CR" and (stretch := stretch_of(problem.mesh)) > _NEEDLES:
+        return f"there are cells {stretch:.0f} times as long as high, and CR takes at most {_NEEDLES:.0f}"
+    return None
 
 
 def solve_multigrid(problem, guess=None):

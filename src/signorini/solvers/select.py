@@ -90,17 +90,13 @@ def solve(problem, method="auto", guess=None):
 
 
 def _choose(problem, method):
-    from signorini.solvers.fourier import obstruction
-
     if method not in ("auto", *METHODS):
         raise SolverError(f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}")
-    if method in ("direct", "multigrid"):
+    if method != "auto":
+        if why_not := _obstruction(method, problem):
+            raise SolverError(f"solver.method: {method} does not apply, {why_not}; use auto or direct")
         return method, "asked for"
-    why_not = obstruction(problem)
-    if method == "fourier":
-        if why_not:
-            raise SolverError(f"solver.method: fourier does not apply, {why_not}; use auto or direct")
-        return method, "asked for"
+    why_not = _obstruction("fourier", problem)
     if not why_not:
         kind = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
         return "fourier", f"uniform grid, {kind}"
@@ -113,6 +109,12 @@ def _choose(problem, method):
     if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
         return "direct", f"{why_not}, and not refined or of stretched cells"
     return "multigrid", f"{why_not}, and too large for a factorisation"
+
+
+def _obstruction(method, problem):
+    """Why a route does not apply to a problem, or None; the direct one always does."""
+    room = importlib.import_module(METHODS[method][0])
+    return room.obstruction(problem) if hasattr(room, "obstruction") else None
 
 
 def _check_data(problem):

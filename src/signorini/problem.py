@@ -1,6 +1,6 @@
 """From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on contact dofs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -177,6 +177,8 @@ def assemble_stiffness(mesh, element, coefficient=None):
     def laplace(u, v, w):
         return w.k * dot(grad(u), grad(v))
 
+    if isinstance(mesh, Grid):  # far from the origin, the differences of its coordinates would be rounded
+        mesh = replace(mesh, origin=(0.0, 0.0))
     basis = Basis(mesh.skfem, element.skfem(), intorder=1)
     k = np.ones((1, 1)) if coefficient is None else coefficient[:, None]
     return laplace.assemble(basis, k=k).tocsr()

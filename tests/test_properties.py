@@ -7,6 +7,7 @@ import json
 import re
 import time
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from skfem.helpers import dot, grad
 
 from scenes_at_random import LABELS, MOVES, SMOOTH, changed_mesh, scenes
 from signorini.exceptions import MeshError, SignoriniError
-from signorini.mesh import imported
+from signorini.mesh import Grid, imported
 from signorini.mesh.imported import import_mesh
 from signorini.mesh.parse import parse
 from signorini.mesh.patterns import alternating
@@ -37,8 +38,10 @@ def weighted(u, v, w):
 
 
 def stiffness(problem):
-    """The matrix, dense."""
+    """The matrix, dense; that of a grid near the origin, elsewhere its coordinates are rounded."""
     mesh = problem.mesh.skfem
+    if isinstance(problem.mesh, Grid):
+        mesh = replace(problem.mesh, origin=(0.0, 0.0)).skfem
     basis = Basis(mesh, {"P1": ElementTriP1, "CR": ElementTriCR}[problem.element](), intorder=1)
     k = np.ones(mesh.nelements) if problem.coefficient is None else problem.coefficient
     return weighted.assemble(basis, k=k[:, None]).toarray()
@@ -66,7 +69,7 @@ def check_kkt(problem, A, b, u, multiplier, lower, fixed_values, tolerance):
 
 
 def by_least_squares(problem, A, b, lower, fixed_values):
-    """The solution by SciPy's BVLS on the Schur complement, and its condition number; it needs a Dirichlet part."""
+    """The solution by SciPy's BVLS on the Schur complement; it needs a Dirichlet part."""
     c, u = problem.contact, np.zeros(b.size)
     u[problem.fixed], u[c] = fixed_values, lower
     i = np.setdiff1d(problem.free, c)
@@ -81,7 +84,7 @@ def by_least_squares(problem, A, b, lower, fixed_values):
         found = lsq_linear(R, np.linalg.solve(R.T, q / d / size), (0, np.inf), "bvls", tol=1e-15, max_iter=1000)
         u[c] = lower + size * found.x / d
     u[i] = inverse @ (load[i] - A[np.ix_(i, c)] @ (u[c] - lower))
-    return u, np.linalg.cond(A[np.ix_(problem.free, problem.free)])
+    return u
 
 
 def check_solution(problem):
@@ -103,11 +106,14 @@ def check_solution(problem):
         tolerance = 1e-10 if solution.residual <= 1e-10 else 1e-6
         check_kkt(problem, A, b, u, multiplier, lower, fixed_values, tolerance)
         assert np.all(multiplier[~solution.active] == 0)
-        assert np.all(u[problem.contact[solution.active]] == lower[solution.active])
+        assert largest(u[problem.contact[solution.active]] - lower[solution.active]) < TINY
         if solution.status == found.status == "solved":
             np.testing.assert_allclose(u, np.ldexp(found.u, -length), rtol=0, atol=1e-10)
-    if problem.fixed.size and problem.free.size and found.status == "solved":
-        expected, condition = by_least_squares(problem, A, b, lower, fixed_values)
+    condition = (
+        np.linalg.cond(A[np.ix_(problem.free, problem.free)]) if problem.fixed.size * problem.free.size else np.inf
+    )
+    if condition < 1e12:
+        expected = by_least_squares(problem, A, b, lower, fixed_values)
         size = largest(expected, lower, fixed_values)
         np.testing.assert_allclose(np.ldexp(found.u, -length), expected, rtol=0, atol=100 * condition * EPS * size)
 
@@ -144,7 +150,7 @@ def folder(tmp_path_factory):
 
 
 @given(document=scenes(), element=st.sampled_from(["P1", "CR"]))
-@settings(max_examples=150, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=120, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 def test_a_scene_is_solved_or_refused_by_the_name_of_a_field(folder, document, element):
     message = attempt(folder, document, element)
     check_message(message, FIELDS)
@@ -169,9 +175,9 @@ def gmsh(p, t, bottom):
 
 
 @given(
-    moves=st.lists(MOVES, max_size=2),
+    moves=st.lists(MOVES, max_size=1),
     labels=st.lists(st.sampled_from(LABELS), min_size=4, max_size=4),
-    bottom=st.integers(0, 9),
+    bottom=st.integers(-9, 9),
     data=st.fixed_dictionaries({"f": SMOOTH}, optional={"obstacle": SMOOTH, "g": SMOOTH}),
     element=st.sampled_from(["P1", "CR"]),
     n=st.sampled_from([1, 2]),

@@ -167,6 +167,8 @@ BAD_INPUT = {
     ),
     "origin beyond all bounds": (changed("origin: [0, 0]", f"origin: [1{'0' * 400}, 0]"), "out of range"),
     "unknown key": (VALID + "elemnts: [P1]\n", "elemnts: unknown key; did you mean elements? known: title, domain"),
+    "key of a section": (VALID + "obstacle: 0\n", "obstacle: unknown key here; it belongs into the section data"),
+    "key of two sections": (VALID + "kind: x\n", "kind: unknown key here; it belongs into the section domain or truth"),
     "unknown key below": (changed("diagonal: f", "diagnal: f"), "domain.diagnal: unknown key; did you mean diagonal?"),
     "key of no kin": (VALID + "qqqq: 1\n", "qqqq: unknown key; known: title"),
     "missing side": (changed("top: dirichlet, "), "boundary.top: missing; add it"),
@@ -204,7 +206,7 @@ BAD_INPUT = {
     "tabulator": ("a:\n\t- b\n", "line 2, column 1: found character '\\t'"),
     "duplicate key": (VALID + "levels: [2]\n", "line 8, column 1: duplicate key 'levels'"),
     "duplicate key below": (changed("{f:", "{f: 0, f:"), "duplicate key 'f'"),
-    "key a number": ("1: 2\n" + VALID, "key 1 is not a word; put it in quotes if it is a name"),
+    "key a number": ("1: 2\n" + VALID, "key 1 is not a word; put it in quotes if it is a name, a list in brackets"),
     "key a list": ("? [a]\n: 2\n", "is not a word"),
     "alias": (
         VALID.replace("[P1, CR]", "&all [P1, CR]") + "norms: *all\n",

@@ -144,7 +144,7 @@ def _check_power(fine, coarse, complaint):
     ratio, rest = divmod(fine, coarse)
     if rest or ratio & (ratio - 1):
         near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
-        raise SceneError(f"{complaint}; the finer must be a power of two times the coarser, for instance {near}")
+        raise SceneError(f"{complaint}; the finer must be {coarse} times a power of two, for instance {near}")
 
 
 def _check_outputs(document):

@@ -33,7 +33,7 @@ def validated(document, schema, source):
         raise SceneError(f"{source}: expected 'key: value' lines at the top, found {shown(document)}")
     error = min(_validator()(schema).iter_errors(document), key=_order, default=None)
     if error is not None:
-        raise SceneError(f"{source}: {_explain(error)}")
+        raise SceneError(f"{source}: {_explain(error, schema)}")
     _check_kinds(document, schema, source)
     document = copy.deepcopy(document)
     _fill(document, schema)
@@ -77,12 +77,15 @@ def _fill(document, schema):
             _fill(document[key], part)
 
 
-def _explain(error):
+def _explain(error, schema):
     field = ".".join(str(part) for part in error.absolute_path)
     if error.validator == "additionalProperties":
         known = list(error.schema["properties"])
         key = next(key for key in error.instance if key not in known)
         name = key if key.isprintable() and len(key) <= 60 else shown(key)
+        homes = [section for section, part in schema["properties"].items() if key in part.get("properties", {})]
+        if homes and not field:
+            return f"{name}: unknown key here; it belongs into the section {' or '.join(homes)}"
         return f"{field + '.' if field else ''}{name}: unknown key; {nearest(key, known)}"
     if error.validator == "required":
         missing = next(key for key in error.validator_value if key not in error.instance)

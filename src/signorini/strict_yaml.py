@@ -32,7 +32,7 @@ class _Loader(yaml.SafeLoader):
         for key_node, _ in node.value:
             key = self.construct_object(key_node, deep=True)
             if not isinstance(key, str):
-                problem = f"key {str(key)[:40]} is not a word; put it in quotes if it is a name"
+                problem = f"key {str(key)[:40]} is not a word; put it in quotes if it is a name, a list in brackets"
                 raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
             if key in seen:
                 raise yaml.constructor.ConstructorError(

@@ -235,6 +235,7 @@ def _none_of(formulas):
             taken |= formula(x, y) > 0.0
         return np.where(taken, -1.0, 1.0)
 
+    positive_elsewhere.text = "rest"
     return positive_elsewhere
 
 

@@ -87,7 +87,9 @@ class DenseContact:
         except np.linalg.LinAlgError:
             L = np.zeros_like(K)
         if np.any(L.diagonal() ** 2 <= self.band * K.diagonal()):
-            raise SolverError(f"contact matrix S is singular or indefinite on {len(K)} free dofs")
+            raise SolverError(
+                f"domain: contact matrix S is singular or indefinite on {len(K)} free dofs; stretch cells less"
+            )
         x = np.zeros_like(rhs)
         for _ in ("solve", "refine"):
             y = _back_substitute(L[::-1, ::-1], (rhs - K @ x)[::-1])[::-1]

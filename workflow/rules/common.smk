@@ -253,6 +253,16 @@ def final_output():
     return [file for name in CONFIG["scenes"] for file in scene_output(name)] + paper_output()
 
 
+def digits_asked():
+    """What the scene `paper` asks, and no finer where the stability suite is to be quick."""
+    asked = scene("paper").section("elements", "levels", "truth", "norms")
+    return asked | ({"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}} if CONFIG["quick"] else {})
+
+
+def stability_pieces(folder, names):
+    return [f"{STUDIES}/stability/{folder}/{name}.csv" for name in names]
+
+
 def appendix():
     """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
     fragments = [folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))]

@@ -1,4 +1,4 @@
-# `snakemake --cores 2 stability`: what the solvers survive, and how many digits of a result can be trusted.
+# The stability suite, `snakemake --cores 2 stability`; a finished piece is a file, so that it can be interrupted.
 
 STABILITY = f"{STUDIES}/stability"
 STABILITY_FIGURES = ["ours", "rivals", "floor", "stretched"]
@@ -26,19 +26,6 @@ EXTREMES = {
     "contact-sets": [],
     "walk": [50] if QUICK else [3000],
 }
-
-
-def digits_asked():
-    """What the scene `paper` asks, and no finer where it is to be quick."""
-    asked = scene("paper").section("elements", "levels", "truth", "norms")
-    return asked | ({"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}} if QUICK else {})
-
-
-rule stability:
-    input:
-        f"{STABILITY}/stability.tex",
-        f"{STABILITY}/stability.md",
-        [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
 
 
 rule stability_success:
@@ -89,9 +76,9 @@ rule stability_floor:
         f"{STABILITY}/logs/floor_{{piece}}.log",
     wildcard_constraints:
         piece="|".join(FLOOR),
+    priority: 5
     params:
         levels=lambda wildcards: list(FLOOR[wildcards.piece]),
-    priority: 5
     shell:
         "python3 workflow/scripts/stability_floor.py --piece {wildcards.piece} --levels {params.levels}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -113,10 +100,6 @@ rule stability_extremes:
         " --values {params.values} 2>&1 | tee {log:q}"
 
 
-def stability_pieces(folder, names):
-    return expand(f"{STABILITY}/{folder}/{{name}}.csv", name=names)
-
-
 rule stability_report:
     input:
         library("stability_report.py"),
@@ -131,10 +114,9 @@ rule stability_report:
     log:
         f"{STABILITY}/logs/report.log",
     params:
-        folder=STABILITY,
         limit=0.1 if QUICK else 1,
     shell:
-        "python3 workflow/scripts/stability_report.py --folder {params.folder:q} --time-limit {params.limit}"
+        "python3 workflow/scripts/stability_report.py --time-limit {params.limit} --output {output.tex:q}"
         " 2>&1 | tee {log:q}"
 
 
@@ -147,7 +129,5 @@ rule figure_stability:
         [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
     log:
         f"{STABILITY}/logs/figures.log",
-    params:
-        folder=STABILITY,
     shell:
-        "python3 workflow/scripts/figure_stability.py --folder {params.folder:q} {output:q} 2>&1 | tee {log:q}"
+        "python3 workflow/scripts/figure_stability.py {output:q} 2>&1 | tee {log:q}"

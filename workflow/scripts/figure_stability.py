@@ -10,10 +10,10 @@ from signorini.studies.stability_floor import growth
 from signorini.studies.stability_parts import digits_by_cell, read_parts, shares, titles
 
 
-@options("--folder", ("outputs", {"nargs": "+"}))
+@options(("outputs", {"nargs": "+"}))
 def main(arguments):
-    """The folder of the suite and stability_<figure>.<pdf or png> to draw."""
-    parts = read_parts(arguments.folder)
+    """The pieces beside the outputs, stability_<figure>.<pdf or png>, to these."""
+    parts = read_parts(Path(arguments.outputs[0]).parent)
     success, floor = parts["success"], parts["floor"]
     errors = [row for name, piece in floor.items() if "-" in name for row in piece]
     drawings = {

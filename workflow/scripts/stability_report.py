@@ -9,12 +9,12 @@ from signorini.studies.stability_parts import CAPTIONS, read_parts
 from signorini.studies.stability_report import Report
 
 
-@options("--folder", ("--time-limit", {"type": float}))
+@options(("--time-limit", {"type": float}), "--output")
 def main(arguments):
-    """The folder of the suite, all its pieces there, to stability.tex, stability.md and the tables as CSV."""
-    folder = Path(arguments.folder)
+    """The pieces beside stability.tex to that file, stability.md and the tables as CSV."""
+    folder = Path(arguments.output).parent
     report = Report(read_parts(folder), arguments.time_limit)
-    write_text(folder / "stability.tex", report.tex(CAPTIONS))
+    write_text(arguments.output, report.tex(CAPTIONS))
     write_text(folder / "stability.md", report.markdown(CAPTIONS))
     claims = report.claims()
     tables = {"claims": claims, "solvers": report.solvers, "statuses": report.statuses, "digits": report.digits}

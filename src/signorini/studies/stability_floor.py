@@ -165,7 +165,7 @@ def crossings(rows):
         ``floor_order`` of the floor, and ``h``, the mesh width where they would meet.
     """
     found = []
-    for element in dict.fromkeys(row["element"] for row in rows):
+    for element in sorted({row["element"] for row in rows}, key=list(ELEMENTS).index):
         for norm in NORMS:
             smooth, floor = (
                 sorted(

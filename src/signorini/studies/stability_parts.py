@@ -53,9 +53,9 @@ def _read(path):
 
 def digits_by_cell(rows):
     """(element, family, load) -> (digits of our worst solution, share solved)."""
-    found = {}
-    for key in dict.fromkeys((row["element"], row["family"], row["load"]) for row in rows):
-        own = [r for r in rows if (r["element"], r["family"], r["load"]) == key and r["solver"].startswith("ours")]
+    found, ours = {}, [row for row in rows if row["solver"].startswith("ours")]
+    for key in dict.fromkeys((row["element"], row["family"], row["load"]) for row in ours):
+        own = [row for row in ours if (row["element"], row["family"], row["load"]) == key]
         worst = max((row["error"] for row in own if row["error"]), default=0.0)
         found[key] = (-np.log10(max(worst, np.finfo(float).eps)), np.mean([_solved(row) for row in own]))
     return found

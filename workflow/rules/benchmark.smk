@@ -9,6 +9,7 @@ rule benchmark_machine:
         f"{BENCHMARK}/machine.json",
     log:
         f"{BENCHMARK}/logs/machine.log",
+    priority: 100  # before this run is the load
     threads: workflow.cores
     shell:
         "python3 workflow/scripts/benchmark_machine.py --output {output:q} 2>&1 | tee {log:q}"

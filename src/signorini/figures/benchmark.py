@@ -42,7 +42,7 @@ def draw_error(series):
                 place = {"xytext": (0, 2.5 if element == "P1" else -2.5), "textcoords": "offset points"}
                 align = {"ha": "center", "va": "bottom" if element == "P1" else "top"}
                 axes.annotate(f"{row['n']:g}", (row["total"], row[norm]), fontsize=4.5, color=GREY, **place, **align)
-    _finish(figure, panels, "seconds", NORMS)
+    _finish(panels, "seconds", NORMS)
     return figure
 
 
@@ -74,7 +74,7 @@ def draw_growth(series, growth):
             values = [row[quantity] / unit for row in shown]
             style = _style(series, element, method) | {"label": label}
             panels[scene, quantity].plot([row["dofs"] for row in shown], values, **style)
-    _finish(figure, panels, "unknowns", {key: name for key, (name, _) in quantities.items()}, every=True)
+    _finish(panels, "unknowns", {key: name for key, (name, _) in quantities.items()}, rising=True)
     return figure
 
 
@@ -182,25 +182,25 @@ def _panels(series, columns):
     }
 
 
-def _finish(figure, panels, xlabel, ylabels, every=False):
+def _finish(panels, xlabel, ylabels, rising=False):
+    """Axes, and legends: upper left in every panel where curves rise, else upper right in the first row."""
     scenes = list(dict.fromkeys(scene for scene, _ in panels))
     for (scene, key), axes in panels.items():
         axes.set(xscale="log", yscale="log", ylabel=ylabels[key])
         axes.set_title(scene, fontsize=7, pad=2)
         axes.minorticks_off()
-        _whole_decades(axes)
+        _whole_decades(axes, above=int(rising))  # room for the legend
         if scene == scenes[-1]:
             axes.set_xlabel(xlabel)
-        if every or scene == scenes[0]:
-            axes.legend(
-                loc="upper left" if every else "upper right", handlelength=3, borderaxespad=0.1, labelspacing=0.2
-            )
+        if rising or scene == scenes[0]:
+            place = {"loc": f"upper {'left' if rising else 'right'}", "borderaxespad": 0.1}
+            axes.legend(fontsize=5.5, handlelength=3, labelspacing=0.1, **place)
 
 
-def _whole_decades(axes):
-    """Let the ordinates run over whole decades, at least one."""
+def _whole_decades(axes, above=0):
+    """Let the ordinates run over whole decades, at least one, and some more above."""
     low, high = (math.log10(value) for value in (axes.dataLim.y0, axes.dataLim.y1))
-    axes.set_ylim(10.0 ** math.floor(low), 10.0 ** max(math.ceil(high), math.floor(low) + 1))
+    axes.set_ylim(10.0 ** math.floor(low), 10.0 ** (max(math.ceil(high), math.floor(low) + 1) + above))
 
 
 def _style(series, element, method):

@@ -50,7 +50,7 @@ def tex_table(table, label, more=""):
     width = len(table.header)
     lines = [
         r"\begin{table}[tp]",
-        r"\centering\scriptsize\setlength{\tabcolsep}{3pt}",
+        r"\centering\scriptsize\setlength{\tabcolsep}{2.5pt}",
         rf"\caption{{{tex(table.caption)}{more}}}\label{{tab:{label}}}",
         rf"\begin{{tabular}}{{l{'r' * (width - 1)}}}",
         r"\toprule",

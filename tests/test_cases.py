@@ -45,7 +45,6 @@ ELSEWHERE = {
     ],
     "8 unit of length, offset, resolution": [
         "test_solve.py::test_the_unit_of_length_does_not_matter",
-        "test_solve.py::test_the_origin_does_not_matter",
         "test_domain.py::test_sides_are_found_at_any_scale_and_offset",
         "test_domain.py::test_coordinates_without_resolution_are_refused",
     ],

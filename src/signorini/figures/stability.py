@@ -126,8 +126,7 @@ def draw_floor(errors, lines):
         axes.minorticks_off()
         axes.set(xlabel="mesh width $h$", title=title)
         axes.title.set_fontsize(8)
-        if k == 0:
-            axes.legend(loc="lower left", bbox_to_anchor=(0.0, 0.36), handlelength=3)
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.64), handlelength=3)
     return figure
 
 

@@ -137,10 +137,10 @@ REFUSED = {
 @pytest.mark.parametrize("case", REFUSED)
 def test_refusal_is_quick_and_one_helpful_line(case):
     text, hint = REFUSED[case]
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(FormulaError) as caught:
         Formula(text, "data.obstacle")
-    elapsed = time.perf_counter() - start
+    elapsed = time.process_time() - start
     message = str(caught.value)
     assert message.startswith("data.obstacle: ")
     assert hint in message
@@ -194,9 +194,9 @@ VALUES = {
 
 @pytest.mark.parametrize("text", VALUES, ids=lambda text: text[:40])
 def test_values_agree_with_numpy(text):
-    start = time.perf_counter()
+    start = time.process_time()
     formula = Formula(text)
-    assert time.perf_counter() - start < 0.1
+    assert time.process_time() - start < 0.1
     np.testing.assert_allclose(formula(X, Y), VALUES[text], rtol=4e-15, atol=1e-15)
 
 

@@ -43,7 +43,7 @@ MODULES = {
     "figures/style.py": FIGURES,
     "rates.py": {"rates": 1, "table": 1} | FIGURES,
     "errors/reference.py": ERRORS,
-    "contact_line.py": SHOWN,
+    "contact_line.py": ERRORS | SHOWN,
     "exact/harmonic.py": SOLVES,
     "solvers/contact.py": SOLVES,
     "mesh/domain.py": EVERYTHING,

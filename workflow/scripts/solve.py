@@ -1,6 +1,7 @@
 """Discretise a problem at one level, solve it, and store the solution with its proof."""
 
 import json
+import logging
 
 from stage import options, run
 
@@ -14,6 +15,7 @@ from signorini.statement import ProblemStatement
 @options("--statement", "--mesh", "--element", ("--n", {"type": int}), "--method", "--output")
 def main(arguments):
     """A scene's statement, as JSON, to a .npz with u and multiplier."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
     domain = read_domain(arguments.mesh)
     statement.check(domain)

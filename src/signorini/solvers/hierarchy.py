@@ -154,7 +154,8 @@ class Cycle:
             x[self.free[k]] = self.inverse @ r[self.free[k]]
             return x
         self._sweep(k, x, r, 1)
-        rest = r - level.A @ x
+        rest = level.A @ x
+        np.subtract(r, rest, out=rest)
         rest[self.held[k]] = 0.0
         correction = level.P @ self(level.R @ rest, k + 1)
         correction[self.held[k]] = 0.0

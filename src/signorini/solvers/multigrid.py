@@ -34,11 +34,11 @@ def obstruction(problem):
     return None
 
 
-def solve_multigrid(problem, guess=None):
+def solve_multigrid(problem, guess=None, tolerance=_TOLERANCE):
     """Solve any problem; arguments, results and errors as in `solvers.fourier.solve_fourier`.
 
-    The accuracy returned is the error that rounding of the entries of A causes on stretched or obtuse cells, as on the
-    direct route.
+    Iterations end where the estimated error is below `tolerance` times max |u|, or below the accuracy returned. That is
+    the error that rounding of the entries of A causes on stretched or obtuse cells, as on the direct route.
     """
     check_memory(problem.mesh.number_of_triangles, MULTIGRID[problem.element], "a mesh for solver.method multigrid")
     levels = build_hierarchy(problem)
@@ -54,7 +54,7 @@ def solve_multigrid(problem, guess=None):
     if guess is not None:
         active = guess.copy()
     accuracy = _accuracy(levels, obstacles[0].held(active))
-    u, active, steps = _solve_level(levels, obstacles[0], u, active, max(_TOLERANCE, accuracy))
+    u, active, steps = _solve_level(levels, obstacles[0], u, active, max(tolerance, accuracy))
     return u, active, steps, accuracy
 
 
@@ -122,10 +122,11 @@ def _descend(level, cycle, obstacle, u, active, tolerance, slack):
     weight = level.diagonal[obstacle.contact]
     r = obstacle.b - level.A @ u
     count(products=1)
-    p, rz, best, waited = 0.0, np.inf, np.inf, 0
+    p, rz, best, waited, size = None, np.inf, np.inf, 0, _largest(u)
     while True:
         z = cycle(r)
-        error, size = _largest(z), max(_largest(u), _largest(z))
+        error = _largest(z)
+        size = max(size, error)
         gap, rate = u[obstacle.contact] - obstacle.lower, -r[obstacle.contact] / weight
         depth = np.where(active, rate, gap)
         band = slack * max(error, 4.0 * _EPS * size)
@@ -141,12 +142,12 @@ def _descend(level, cycle, obstacle, u, active, tolerance, slack):
                 "the cells are too stretched for it: set solver.method to direct"
             )
         before, rz = rz, r @ z
-        p = z + (rz / before) * p
+        p = z if p is None else np.add(np.multiply(p, rz / before, out=p), z, out=p)
         Ap = level.A @ p
         count(products=1, cycles=1)
         step = rz / (p @ Ap)
         u += step * p
-        r -= step * Ap
+        r -= np.multiply(Ap, step, out=Ap)
 
 
 def _accuracy(levels, held):

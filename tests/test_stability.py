@@ -47,6 +47,13 @@ def test_extended_precision_knows_what_double_does_not(element, aspect):
         assert error < 0.1 * np.abs(solution.u - truth).max()
 
 
+def test_a_contact_set_is_that_of_the_matrix_as_it_is():
+    """Refined by another matrix, equal but for round-off, this solution fell below the obstacle by 5e-8."""
+    solution = solve(instance("stretched", "degenerate", "CR", 18).problem, "direct")
+    assert solution.status == "inaccurate"
+    assert solution.residual <= 1e-9
+
+
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_extended_precision_mends_a_wrong_contact_set(element):
     problem = discretize(statement(**DATA), element, 8)

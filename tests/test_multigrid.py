@@ -77,8 +77,8 @@ def test_the_work_does_not_grow_with_the_mesh(element, load):
         with counting() as work:
             assert solve(problem_on(square(n), element, **load), "multigrid").status == "solved"
         cycles.append(work.cycles)
-        assert work.products <= work.cycles + work.steps + 4
-    assert max(cycles) <= 20
+        assert work.products <= work.cycles + work.steps + 5
+    assert max(cycles) <= 24
     assert cycles[-1] <= cycles[0] + 4
 
 

@@ -13,10 +13,9 @@ from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, check_memory
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.count import count
+from signorini.solvers.residual import EXACT, residual
 
 _LEAF = 8
-_EXACT = 1e-12  # up to this accuracy, round-off in the entries of A moves no contact set
-_ROUNDING = 2.0**-44  # of the terms of a sum, below which it is taken for zero
 _SINGULAR = 1e-13  # a pivot this small against its diagonal entry is round-off
 
 
@@ -47,18 +46,11 @@ def solve_direct(problem, guess=None):
 
 
 def _residual(problem, u, accuracy):
-    """b - A u by differences of u, which round less than u itself, as rows of A sum to zero but for round-off.
-
-    Where that round-off moves u, it stays: the contact set is that of the matrix as it is.
-    """
+    """b - A u, by differences unless round-off in the rows of A moves u: the contact set is that of A as it is."""
+    if accuracy <= EXACT:
+        return residual(problem.A, problem.b, u)
     count(products=1)
-    A, ones = problem.A, np.ones(u.size)
-    if accuracy > _EXACT:
-        return problem.b - A @ u
-    rows = np.repeat(np.arange(u.size), np.diff(A.indptr))
-    excess = A @ ones
-    excess[np.abs(excess) <= _ROUNDING * (abs(A) @ ones)] = 0.0
-    return problem.b - excess * u - np.bincount(rows, A.data * (u[A.indices] - u[rows]), u.size)
+    return problem.b - problem.A @ u
 
 
 def _displacement(problem, condensed, operator, active, load):

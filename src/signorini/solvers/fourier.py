@@ -95,20 +95,48 @@ def solve_fourier(problem, guess=None):
     SolverError
         If the active-set iteration does not end.
     """
-    strip = _strip(problem.grid)
-    load = _shifted_load(problem)
-    route = (_Vertices if problem.element == "P1" else _Edges)(problem.grid, strip)
+    route = (_Vertices if problem.element == "P1" else _Edges)(problem.grid, _strip(problem.grid))
+    line = _Line(guess, singular=problem.fixed.size == 0)
+    u = _displacement(problem, route, _shifted_load(problem), line.settle)
+    u[problem.fixed] = problem.fixed_values
+    u[problem.contact] += problem.lower
+    count(products=1)
+    rest = apply_stiffness(problem.grid, problem.element, u)
+    u += _displacement(problem, route, np.subtract(problem.b, rest, out=rest), line.hold)
+    return u, line.active, line.iterations, 0.0
+
+
+class _Line:
+    """The contact line: its set is found once, and held when the solution is refined."""
+
+    def __init__(self, guess, singular):
+        self.guess, self.singular = guess, singular
+        self.active, self.iterations = np.zeros(0, dtype=bool), 0
+
+    def settle(self, operator, q):
+        """The gap under the condensed load q, shape (nc,)."""
+        result = solve_contact(operator, q, guess=self.guess, singular=self.singular)
+        self.active, self.iterations = result.active, result.iterations
+        return result.w
+
+    def hold(self, operator, q):
+        """The change of the gap under a further load, none in the contact set."""
+        w, free = np.zeros(q.size), ~self.active
+        if free.any():
+            w[free] = operator.solve_free(free, q[free])
+        return w
+
+
+def _displacement(problem, route, load, settle):
+    """What a load does: u, zero on the fixed dofs, whose gap on the contact line is ``settle(operator, q)``."""
     rows = route.reduce(load)
     if route.basis.weighted:
         rows /= route.basis.mass
     count(factorisations=1)
     factors, symbol = route.eliminate(route.basis.forward(rows, out=rows))
-    gap, active, iterations = np.zeros(0), np.zeros(0, dtype=bool), 0
+    gap = np.zeros(0)
     if problem.contact.size:
-        q = route.basis.mass * route.basis.backward(rows[0])
-        singular = problem.fixed.size == 0
-        result = solve_contact(contact_operator(route.basis, symbol), q, guess=guess, singular=singular)
-        gap, active, iterations = result.w, result.active, result.iterations
+        gap = settle(contact_operator(route.basis, symbol), route.basis.mass * route.basis.backward(rows[0]))
         rows[0] = route.basis.forward(gap)
     else:
         rows[0] /= symbol
@@ -116,9 +144,9 @@ def solve_fourier(problem, guess=None):
         rows[j] += factors[j] * rows[j - 1]
     del factors
     u = route.extend(route.basis.backward(rows, out=rows), load)
-    u[problem.fixed] = problem.fixed_values
-    u[problem.contact] = problem.lower + gap
-    return u, active, iterations, 0.0
+    u[problem.fixed] = 0.0
+    u[problem.contact] = gap
+    return u
 
 
 def _shifted_load(problem):

@@ -16,11 +16,13 @@ from signorini.memory import MULTIGRID, check_memory
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
 from signorini.solvers.hierarchy import HALF, Cycle, build_hierarchy, stretch_of
+from signorini.solvers.residual import EXACT, residual
 
 _TOLERANCE = 1e-14  # estimated error on the finest level, of max |u|; or the accuracy, where it is worse
 _MAX_STEPS = 300
 _EPS = np.finfo(float).eps
 _TOUCHING = 8.0  # estimated errors within which a gap is none
+_REFINED = 1e-2  # estimated error of the correction by refinement, of its size
 _NEEDLES = 100.0  # stretched cells on which CR converges with no levels; measured
 _PATIENCE = 60  # steps without half the error before giving up
 
@@ -55,6 +57,8 @@ def solve_multigrid(problem, guess=None, tolerance=_TOLERANCE):
         active = guess.copy()
     accuracy = _accuracy(levels, obstacles[0].held(active))
     u, active, steps = _solve_level(levels, obstacles[0], u, active, max(tolerance, accuracy))
+    if max(tolerance, accuracy) <= EXACT:
+        _refine(levels, obstacles[0], u, active)
     return u, active, steps, accuracy
 
 
@@ -148,6 +152,16 @@ def _descend(level, cycle, obstacle, u, active, tolerance, slack):
         step = rz / (p @ Ap)
         u += step * p
         r -= np.multiply(Ap, step, out=Ap)
+
+
+def _refine(levels, obstacle, u, active):
+    """Add to `u` in place what its residual by differences tells, with the contact set held."""
+    held, none = obstacle.held(active), np.zeros(0, dtype=int)
+    fixed = np.flatnonzero(held)
+    rest = Obstacle(residual(levels[0].A, obstacle.b, u), none, np.zeros(0), fixed, np.zeros(fixed.size))
+    correction = np.zeros(u.size)
+    _descend(levels[0], Cycle(levels, held), rest, correction, np.zeros(0, dtype=bool), _REFINED, 1)
+    u += correction
 
 
 def _accuracy(levels, held):

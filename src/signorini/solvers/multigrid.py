@@ -51,14 +51,14 @@ def solve_multigrid(problem, guess=None, tolerance=_TOLERANCE):
     active = obstacles[-1].b[obstacles[-1].contact] <= 0.0
     with counting():  # work on coarser levels is not that of the finest
         for k in range(len(levels) - 1, 0, -1):
-            u, active, _ = _solve_level(levels[k:], obstacles[k], u, active, 0.1 / u.size)
+            u, active, _, _ = _solve_level(levels[k:], obstacles[k], u, active, 0.1 / u.size)
             u, active = _prolong(levels[k - 1], obstacles[k], obstacles[k - 1], u, active)
     if guess is not None:
         active = guess.copy()
     accuracy = _accuracy(levels, obstacles[0].held(active)) if tolerance <= EXACT else 0.0
-    u, active, steps = _solve_level(levels, obstacles[0], u, active, max(tolerance, accuracy))
+    u, active, steps, cycle = _solve_level(levels, obstacles[0], u, active, max(tolerance, accuracy))
     if max(tolerance, accuracy) <= EXACT:
-        _refine(levels, obstacles[0], u, active)
+        _refine(levels[0], obstacles[0], u, cycle)
     return u, active, steps, accuracy
 
 
@@ -116,7 +116,7 @@ def _solve_level(levels, obstacle, u, active, tolerance):
         if not wrong.any():
             active |= touching
             u[obstacle.contact[active]] = obstacle.lower[active]
-            return u, active, step
+            return u, active, step, cycle
         active[exchange.choose(active, wrong, depth)] ^= True
     raise SolverError(f"multigrid: no contact set in {_MAX_STEPS} steps, {exchange.fewest} dofs violated at best")
 
@@ -154,13 +154,11 @@ def _descend(level, cycle, obstacle, u, active, tolerance, slack):
         r -= np.multiply(Ap, step, out=Ap)
 
 
-def _refine(levels, obstacle, u, active):
-    """Add to `u` in place what its residual by differences tells, with the contact set held."""
-    held, none = obstacle.held(active), np.zeros(0, dtype=int)
-    fixed = np.flatnonzero(held)
-    rest = Obstacle(residual(levels[0].A, obstacle.b, u), none, np.zeros(0), fixed, np.zeros(fixed.size))
-    correction = np.zeros(u.size)
-    _descend(levels[0], Cycle(levels, held), rest, correction, np.zeros(0, dtype=bool), _REFINED, 1)
+def _refine(level, obstacle, u, cycle):
+    """Add to `u` in place what its residual by differences tells, with the unknowns held that `cycle` holds."""
+    none, correction = np.zeros(0, dtype=int), np.zeros(u.size)
+    rest = Obstacle(residual(level.A, obstacle.b, u), none, np.zeros(0), none, np.zeros(0))
+    _descend(level, cycle, rest, correction, np.zeros(0, dtype=bool), _REFINED, 1)
     u += correction
 
 

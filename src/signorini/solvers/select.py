@@ -127,9 +127,10 @@ def _check_data(problem):
 
 def _check_symmetric(A):
     """Hold x . A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not finite."""
-    x, y = np.random.default_rng(0).random((2, A.shape[0])) - 0.5
-    one, other, size = x @ (A @ y), y @ (A @ x), np.abs(x) @ (np.abs(A.diagonal()) * np.abs(y))
-    if not abs(one - other) <= 1e-9 * size:
+    x = np.random.default_rng(0).random(A.shape[0]) - 0.5
+    y = x[::-1].copy()
+    Ax, Ay = A @ x, A @ y
+    if not abs(x @ Ay - y @ Ax) <= 1e-9 * np.sqrt(x @ x) * np.sqrt(Ax @ Ax):
         raise SolverError("problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form")
 
 

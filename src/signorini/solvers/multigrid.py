@@ -23,7 +23,7 @@ _MAX_STEPS = 300
 _EPS = np.finfo(float).eps
 _TOUCHING = 8.0  # estimated errors within which a gap is none
 _REFINED = 1e-2  # estimated error of the correction by refinement, of its size
-_NEEDLES = 100.0  # stretched cells on which CR converges with no levels; measured
+_NEEDLES = 50.0  # stretched cells on which CR converges with no levels; measured
 _PATIENCE = 60  # steps without half the error before giving up
 
 _log = logging.getLogger(__name__)

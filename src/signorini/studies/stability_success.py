@@ -181,7 +181,7 @@ def statuses(rows):
         above 1e-12.
     """
     found = []
-    ours = [row for row in rows if row["solver"].startswith("ours/")]
+    ours = [row for row in rows if row["solver"].startswith("ours/") and row["claimed"]]
     for family, element in dict.fromkeys((row["family"], row["element"]) for row in ours):
         own = [row for row in ours if (row["family"], row["element"]) == (family, element)]
         solved, other = ([r["error"] for r in own if r["status"] == name] for name in ("solved", "inaccurate"))

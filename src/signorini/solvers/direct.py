@@ -33,6 +33,7 @@ def solve_direct(problem, guess=None):
     u[problem.contact] = problem.lower
     condensed = Condensed(problem)
     load = problem.b - problem.A @ u
+    count(products=1)
     active, iterations, operator = np.zeros(0, dtype=bool), 0, None
     if problem.contact.size:
         operator = DenseContact(condensed.S)

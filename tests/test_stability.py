@@ -202,3 +202,14 @@ def test_figures_show_shares_and_digits():
     assert shares(found, "family")["osqp", "needles"] == 0.5
     assert list(titles(found)) == ["ours", "ours/direct", "osqp"]
     assert [title(name) for name in ("ours", "ours/direct", "osqp")] == ["signorini", "signorini direct", "OSQP"]
+
+
+def test_a_floor_of_zero_has_neither_growth_nor_crossing():
+    errors = [
+        {"family": family, "element": "P1", "n": n, "l2": error * n**-2.0, "h1_semi": error / n}
+        for family, error in (("smooth", 1.0), ("patch", 0.0))
+        for n in (2, 4, 8, 16)
+    ]
+    for row in stability_floor.crossings(errors):
+        assert (row["floor"], row["floor_order"], row["h"]) == (0.0, None, None)
+    assert stability_floor.growth([{"element": "P1", "error": 0.0, "aspect": 1e-2}], "error", by="aspect") == {}

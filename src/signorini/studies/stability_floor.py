@@ -134,7 +134,7 @@ def _extremes(problem):
 
 
 def growth(rows, column, by="n"):
-    """Least-squares exponent and factor of ``column = factor * by**exponent``, per element.
+    """Least-squares exponent and factor of ``column = factor * by**exponent``, per element that is not zero.
 
     Returns
     -------
@@ -144,9 +144,10 @@ def growth(rows, column, by="n"):
     found = {}
     for element in dict.fromkeys(row["element"] for row in rows):
         own = [row for row in rows if row["element"] == element and row[column]]
-        x, y = (np.log([row[key] for row in own]) for key in (by, column))
-        exponent, offset = np.polyfit(x, y, 1)
-        found[element] = (float(exponent), float(np.exp(offset)))
+        if len(own) > 1:
+            x, y = (np.log([row[key] for row in own]) for key in (by, column))
+            exponent, offset = np.polyfit(x, y, 1)
+            found[element] = (float(exponent), float(np.exp(offset)))
     return found
 
 
@@ -162,7 +163,7 @@ def crossings(rows):
     -------
     list of dict
         Per ``element`` and ``norm``: ``order`` and ``factor`` of the error, ``floor`` on the finest level, the growth
-        ``floor_order`` of the floor, and ``h``, the mesh width where they would meet.
+        ``floor_order`` of the floor, and ``h``, the mesh width where they would meet; both None for a floor of zero.
     """
     found = []
     for element in sorted({row["element"] for row in rows}, key=list(ELEMENTS).index):
@@ -174,7 +175,7 @@ def crossings(rows):
                 for family in FAMILIES
             )
             (order, error), (slope, least) = (_power(points[-4:]) for points in (smooth, floor))
-            meeting = (least / error) ** (1.0 / (order - slope))
+            meeting = (least / error) ** (1.0 / (order - slope)) if least else None
             found.append(
                 {
                     "element": element,
@@ -182,13 +183,16 @@ def crossings(rows):
                     "order": -order,
                     "floor": floor[-1][1],
                     "floor_order": slope,
-                    "h": 1.0 / meeting,
+                    "h": 1.0 / meeting if meeting else None,
                 }
             )
     return found
 
 
 def _power(points):
-    n, values = np.log([point for point in points if point[1] > 0]).T
+    positive = [point for point in points if point[1] > 0]
+    if len(positive) < 2:
+        return None, None
+    n, values = np.log(positive).T
     exponent, offset = np.polyfit(n, values, 1)
     return float(exponent), float(np.exp(offset))

@@ -129,9 +129,9 @@ class Report:
             (
                 f"{ELEMENTS[row['element']]}, {NORMS[row['norm']]}",
                 f"{row['order']:.2f}",
-                _power(row["floor"]),
-                f"{row['floor_order']:.2f}",
-                _power(row["h"]),
+                _power(row["floor"]) if row["floor"] else "0",
+                "--" if row["floor_order"] is None else f"{row['floor_order']:.2f}",
+                "--" if row["h"] is None else _power(row["h"]),
             )
             for row in self.crossings
         ]

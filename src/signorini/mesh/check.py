@@ -76,7 +76,7 @@ def check_resolution(lower, upper, spacing, source="mesh"):
         If a cell spans fewer than 2**16 neighbouring floating-point numbers, or the box is not of a size in `EXTENTS`.
     """
     extent = float(np.max(np.subtract(upper, lower)))
-    if not EXTENTS[0] <= extent <= EXTENTS[1]:
+    if extent and not EXTENTS[0] <= extent <= EXTENTS[1]:  # none at all, far from the origin, is a lack of resolution
         raise MeshError(f"{source}: extends over {extent:.3g}; choose a unit of length in which it is not as extreme")
     step = np.spacing(np.maximum(np.abs(lower), np.abs(upper)))
     for axis, h, ulp, far in zip("xy", spacing, step, np.maximum(np.abs(lower), np.abs(upper)), strict=True):

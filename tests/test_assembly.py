@@ -73,3 +73,31 @@ def test_the_coarse_matrix_is_the_galerkin_product():
         assert_allclose(P @ coarse.p.T, mesh.p.T, rtol=0, atol=1e-15)
         product = P.T @ assemble_stiffness(mesh, ELEMENTS["P1"]) @ P
         assert abs(product - assemble_stiffness(coarse, ELEMENTS["P1"])).max() < 1e-13
+
+
+def test_p1_is_the_matrix_that_its_couplings_add_up_to(mesh):
+    """To the last bit, entry by entry, summed in another way."""
+    k, (start, end), count = facet_couplings(mesh), mesh.facets, mesh.number_of_vertices
+    coupling = np.zeros(mesh.number_of_facets)
+    for facet, values in zip(mesh.t2f, k, strict=True):
+        np.add.at(coupling, facet, values)
+    expected = np.zeros((count, count))
+    expected[start, end] = expected[end, start] = coupling
+    sums = np.zeros((2, count))
+    for (i, j), value in zip(np.transpose([start, end]), coupling, strict=True):
+        sums[0, i] += value
+        sums[1, j] += value
+    expected[np.arange(count), np.arange(count)] = -sums[0] - sums[1]
+    A = assemble_stiffness(mesh, ELEMENTS["P1"])
+    np.testing.assert_array_equal(A.toarray(), expected)
+    assert A.has_sorted_indices
+    assert A.nnz == np.count_nonzero(expected)
+
+
+def test_the_p1_matrix_leaves_no_facets_behind():
+    """They are 48 bytes of each unknown, and not needed again."""
+    mesh = delaunay(2).refined()
+    before = mesh.facets.copy()
+    assemble_stiffness(mesh, ELEMENTS["P1"])
+    assert "_facets" not in vars(mesh)
+    np.testing.assert_array_equal(mesh.facets, before)

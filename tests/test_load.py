@@ -5,6 +5,7 @@ import pytest
 from skfem import Basis, BilinearForm, FacetBasis, LinearForm
 
 from builders import DATA, PAPER, delaunay, grid, perturbed
+from signorini import load
 from signorini.elements import ELEMENTS, element
 from signorini.exceptions import FormulaError
 from signorini.formula import Formula
@@ -47,6 +48,27 @@ def by_scikit_fem(mesh, kind, f, g, rule):
 def test_the_load_is_scikit_fems(mesh, kind, rule):
     found = assemble_load(mesh, kind, F, G, rule)
     np.testing.assert_allclose(found, by_scikit_fem(mesh, kind, F, G, rule), rtol=0, atol=1e-13)
+
+
+def by_points(mesh, kind, f, rule):
+    """The load of f, summed point by point."""
+    points, weights = triangle_rule(rule, mesh.number_of_triangles)
+    shape, b = kind.shape(points), np.zeros(kind.size(mesh))
+    for q, weight in enumerate(weights):
+        values = weight * mesh.area * f(*(mesh.p[:, mesh.t] * points[:, q, None]).sum(axis=1))
+        for k, dofs in enumerate(kind.triangle_dofs(mesh)):
+            np.add.at(b, dofs, shape[k, q] * values)
+    return b
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("at_once", [1, 100, 2**16])
+def test_blocks_of_points_add_up_to_the_load(kind, rule, at_once, monkeypatch):
+    monkeypatch.setattr(load, "_POINTS_AT_ONCE", at_once)
+    mesh = delaunay(3, inner=80).refined()
+    expected = by_points(mesh, kind, F, rule)
+    found = assemble_load(mesh, kind, F, ZERO, rule)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=4e-15 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])

@@ -42,17 +42,29 @@ def facet_couplings(mesh, coefficient=None):
 
 
 def _vertex_matrix(mesh, coefficient):
-    """Facets in lexicographic order are the upper triangle of the matrix, row by row."""
-    from scipy.sparse import csr_array, diags_array
+    """The couplings, their transpose, and the diagonal that makes all rows sum to zero."""
+    from scipy.sparse import csr_array
+
+    upper = _upper_triangle(mesh, coefficient)
+    mesh.forget_facets()  # P1 needs them here alone
+    lower, count = upper.T.tocsr(), upper.shape[0]
+    own, ones = np.arange(count + 1, dtype=np.int32), np.ones(count)
+    diagonal = csr_array((-(upper @ ones) - lower @ ones, own[:-1], own), shape=(count, count))
+    couplings = upper + lower
+    del upper, lower  # the largest arrays of a whole solve
+    return couplings + diagonal
+
+
+def _upper_triangle(mesh, coefficient):
+    """Facets in lexicographic order are the couplings of vertices above the diagonal, row by row."""
+    from scipy.sparse import csr_array
 
     start, end = mesh.facets
     count = mesh.number_of_vertices
     coupling = np.bincount(mesh.t2f.ravel(), facet_couplings(mesh, coefficient).ravel(), minlength=start.size)
-    diagonal = -np.bincount(start, coupling, minlength=count) - np.bincount(end, coupling, minlength=count)
     first = np.zeros(count + 1, dtype=np.int32)
     np.cumsum(np.bincount(start, minlength=count), out=first[1:])
-    upper = csr_array((coupling, end.astype(np.int32), first), shape=(count, count))
-    return (upper + upper.T.tocsr() + diags_array(diagonal)).tocsr()
+    return csr_array((coupling, end, first), shape=(count, count))
 
 
 def _facet_matrix(mesh, coefficient):

@@ -5,6 +5,7 @@ import warnings
 import numpy as np
 
 from signorini.exceptions import MeshError
+from signorini.mesh.facets import unique_facets
 from signorini.mesh.outline import cross, outline_defect
 
 EXTENTS = (1e-100, 1e100)  # of a domain: areas, and their products with data, then neither under- nor overflow
@@ -85,27 +86,6 @@ def check_resolution(lower, upper, spacing, source="mesh"):
                 f"{source}: cells of size {h:.3g} along {axis} are below the coordinate resolution, {ulp:.2g} at "
                 f"{axis} = {far:.6g}; move the domain towards the origin or use larger cells"
             )
-
-
-def unique_facets(t, number_of_vertices):
-    """Number the facets as scikit-fem does.
-
-    Parameters
-    ----------
-    t : ndarray of int, shape (3, nt)
-    number_of_vertices : int
-
-    Returns
-    -------
-    facets : ndarray of int, shape (2, nf)
-        End vertices, the smaller number first, in lexicographic order.
-    t2f : ndarray of int, shape (3, nt)
-        Facets of each triangle, in the order (01, 12, 02).
-    """
-    start, end = t[[0, 1, 0]], t[[1, 2, 2]]
-    keys = np.minimum(start, end).astype(np.int64) * number_of_vertices + np.maximum(start, end)
-    unique, t2f = np.unique(keys, return_inverse=True)
-    return np.stack(np.divmod(unique, number_of_vertices)), t2f.reshape(t.shape)
 
 
 def coincident(p, q, size):

@@ -68,6 +68,15 @@ class Grid:
         return 0.5 * hx * hy
 
     @property
+    def stretch(self):
+        """The ratio of a triangle's longest edge to the height on it, dimensionless."""
+        hx, hy = self.spacing
+        return hx / hy + hy / hx
+
+    def forget_facets(self):
+        """Nothing to do, for they are not stored; see `Triangulation.forget_facets`."""
+
+    @property
     def number_of_vertices(self):
         """Number of vertices."""
         return (self.nx + 1) * (self.ny + 1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from signorini.boundary import LABELS, SIDES
 from signorini.exceptions import MeshError
-from signorini.mesh.check import unique_facets
+from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.triangulation import Triangulation
 
 _SHOWN = 5
@@ -150,9 +150,8 @@ def _by_part(mesh, name):
         known = ", ".join(list(mesh.parts)[:40]) or "none"
         raise MeshError(f"boundary: {mesh.source} has no part {name!r}; its parts: {known}{hint}")
     count = mesh.p.shape[1]
-    low, high = np.sort(mesh.parts[name], axis=0)
-    keys = mesh.facets[0] * count + mesh.facets[1]
-    wanted = np.where(low >= 0, low * count + high, -1)
+    keys, part = pair_keys(mesh.facets, count), mesh.parts[name]
+    wanted = np.where(part.min(axis=0) >= 0, pair_keys(part, count), -1)
     found = np.isin(wanted, keys[mesh.boundary])
     if not found.all():
         k = np.argmin(found)

@@ -9,9 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
+from signorini.blocks import blocks
 from signorini.boundary import LABELS
 from signorini.exceptions import MeshError
-from signorini.mesh.check import unique_facets
+from signorini.mesh.facets import middles, pair_keys, refined_facets, unique_facets
 from signorini.mesh.grid import Triangles
 
 
@@ -24,7 +25,7 @@ class Triangulation:
     p : ndarray, shape (2, nv)
         Vertices, unit of length.
     t : ndarray of int, shape (3, nt)
-        Vertices of each triangle, in any order.
+        Vertices of each triangle, in any order. Numbers are kept in 32 bits, whatever the type they come in.
     ends : dict of str to ndarray of int, shape (2, k)
         End vertices of the facets that carry each label.
     subdomains : dict of str to ndarray of int, optional
@@ -46,6 +47,9 @@ class Triangulation:
     parent: "Triangulation | None" = None
 
     def __post_init__(self):
+        object.__setattr__(self, "p", np.ascontiguousarray(self.p, dtype=float))
+        object.__setattr__(self, "t", _numbers(self.t))
+        object.__setattr__(self, "ends", {label: _numbers(pairs) for label, pairs in self.ends.items()})
         if self.parent is None:
             self._check_labels()
         elif self.number_of_triangles != 4 * self.parent.number_of_triangles:
@@ -74,7 +78,7 @@ class Triangulation:
     def _facets(self):
         if self.parent is None:
             return unique_facets(self.t, self.number_of_vertices)
-        return _refined_facets(self.parent, self.t)
+        return refined_facets(self.parent, self.t)
 
     @property
     def facets(self):
@@ -85,6 +89,10 @@ class Triangulation:
     def t2f(self):
         """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
         return self._facets[1]
+
+    def forget_facets(self):
+        """Give back the memory of `facets` and `t2f`, 24 bytes a triangle; they are made again when asked for."""
+        self.__dict__.pop("_facets", None)
 
     def triangles_at(self, label):
         """The triangles with a facet that carries `label`, each once, as `Triangles`."""
@@ -125,14 +133,33 @@ class Triangulation:
 
     def areas(self, cells):
         """Area of some triangles, shape (len(cells),), unit of length squared."""
-        a, b, c = (self.p[:, v[cells]] for v in self.t)
-        ab, ac = b - a, c - a
-        return 0.5 * np.abs(ab[0] * ac[1] - ab[1] * ac[0])
+        return triangle_areas(self.corners(cells))
+
+    def corners(self, cells):
+        """Corners of some triangles, shape (2, 3, len(cells)), unit of length."""
+        return self.p.take(self.t[:, cells], axis=1)
+
+    @cached_property
+    def stretch(self):
+        """The largest ratio of a triangle's longest edge to the height on it, dimensionless; refinement keeps it."""
+        if self.parent is not None:
+            return self.parent.stretch
+        return max(self._stretch(cells) for cells in blocks(self.number_of_triangles))
+
+    def _stretch(self, cells):
+        """The same of some triangles."""
+        lengths = (self.edge_vectors(cells) ** 2).sum(axis=1)
+        return float((lengths.max(axis=0) / (2.0 * self.areas(cells))).max())
 
     def boundary_facets(self, label):
         """Facets that carry `label`, increasing."""
-        keys = _keys(self.ends.get(label, np.zeros((2, 0), dtype=np.int32)), self.number_of_vertices)
-        return np.sort(np.searchsorted(_keys(self.facets, self.number_of_vertices), keys).astype(np.int32))
+        ends = self.ends.get(label, np.zeros((2, 0), dtype=np.int32))
+        starts = np.zeros(self.number_of_vertices, dtype=bool)
+        starts[np.minimum(*ends)] = True
+        near = np.flatnonzero(starts[self.facets[0]]).astype(np.int32)
+        known, wanted = (pair_keys(pairs, self.number_of_vertices) for pairs in (self.facets[:, near], ends))
+        _check_sides(self.p, label, ends[:, ~np.isin(wanted, known)])
+        return np.sort(near[np.searchsorted(known, wanted)])
 
     def boundary_vertices(self, label):
         """Vertices on the closed facets that carry `label`, increasing, each once."""
@@ -156,9 +183,8 @@ class Triangulation:
 
     def edge_vectors(self, cells):
         """The edges 01, 12 and 20 of some triangles as vectors, shape (3, 2, len(cells)), unit of length."""
-        t = self.t[:, cells]
-        x, y = self.p[0][t], self.p[1][t]
-        return np.stack([np.roll(x, -1, axis=0) - x, np.roll(y, -1, axis=0) - y], axis=1)
+        corners = self.corners(cells)
+        return (corners[:, [1, 2, 0]] - corners).transpose(1, 0, 2)
 
     def gradients(self, values):
         """Gradients of a piecewise affine function given by its values at the corners.
@@ -180,11 +206,10 @@ class Triangulation:
 
     def refined(self):
         """Each triangle cut into four by the midpoints of its facets; the labels are inherited."""
-        middle = _middles(self)
         start, end = self.facets
         p = np.concatenate([self.p, 0.5 * (self.p[:, start] + self.p[:, end])], axis=1)
         a, b, c = self.t
-        ab, bc, ac = middle
+        ab, bc, ac = middles(self)
         t = np.stack([np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))])
         ends = {label: self._halves(self.boundary_facets(label)) for label in self.ends}
         count = self.number_of_triangles * np.arange(4)[:, None]
@@ -219,41 +244,22 @@ class Triangulation:
         return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
 
 
-def _keys(ends, count):
-    """A number for each pair of vertices, in the lexicographic order of the pairs, the smaller first."""
-    return np.minimum(*ends).astype(np.int64) * count + np.maximum(*ends)
+def triangle_areas(corners):
+    """Area of triangles with `corners`, shape (2, 3, k)."""
+    a, b, c = corners.transpose(1, 0, 2)
+    ab, ac = b - a, c - a
+    return 0.5 * np.abs(ab[0] * ac[1] - ab[1] * ac[0])
 
 
-def _middles(mesh):
-    """In the refined mesh, the vertex amid each facet of each triangle, shape (3, nt)."""
-    return (mesh.number_of_vertices + mesh.t2f).astype(mesh.t.dtype)
+def _check_sides(p, label, strangers):
+    if strangers.size:
+        (ax, ay), (bx, by) = p[:, strangers[:, 0]].T
+        raise MeshError(
+            f"mesh: {strangers.shape[1]} facets labelled {label} are no side of a triangle, such as that from "
+            f"({ax:.6g}, {ay:.6g}) to ({bx:.6g}, {by:.6g}); give the two end vertices of facets"
+        )
 
 
-def _refined_facets(parent, t):
-    """`facets` and `t2f` of the mesh refined from `parent`, whose triangles are `t`.
-
-    Listed first are the halves at the smaller and at the greater end of each of the parent's facets, then the facets
-    inside its triangles, cutting off their vertices 0, 1 and 2; sorting that list gives the numbers.
-    """
-    halves, count = parent.number_of_facets, parent.number_of_triangles
-    start, end = parent.facets
-    middle = parent.number_of_vertices + np.arange(halves, dtype=t.dtype)
-    ab, bc, ac = _middles(parent)
-    inner = np.stack([np.concatenate([ab, ab, ac]), np.concatenate([ac, bc, bc])])
-    ends = np.concatenate([[start, middle], [end, middle], np.sort(inner, axis=0)], axis=1).astype(t.dtype)
-    order = np.argsort(_keys(ends, parent.number_of_vertices + halves))
-    number = np.empty(order.size, dtype=np.int32)
-    number[order] = np.arange(order.size, dtype=np.int32)
-
-    def half(facet, vertex):
-        k = parent.t2f[facet]
-        return number[k + halves * (parent.t[vertex] != start[k])]
-
-    cut = number[2 * halves :].reshape(3, count)
-    of_children = (
-        (half(0, 0), cut[0], half(2, 0)),
-        (half(0, 1), half(1, 1), cut[1]),
-        (cut[2], half(1, 2), half(2, 2)),
-        (cut[2], cut[0], cut[1]),
-    )
-    return ends[:, order], np.concatenate([np.stack(child) for child in of_children], axis=1)
+def _numbers(vertices):
+    """In 32 bits; TypeError for numbers that are not whole."""
+    return np.asarray(vertices).astype(np.int32, casting="same_kind", copy=False)

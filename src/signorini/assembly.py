@@ -24,7 +24,11 @@ def assemble_stiffness(mesh, element, coefficient=None):
     scipy.sparse.csr_array, shape (ndof, ndof)
         Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not stored.
     """
-    A = (_vertex_matrix if element.name == "P1" else _facet_matrix)(mesh, coefficient)
+    return _assembled(mesh, element, facet_couplings(mesh, coefficient))
+
+
+def _assembled(mesh, element, couplings):
+    A = (_vertex_matrix if element.name == "P1" else _facet_matrix)(mesh, couplings)
     A.eliminate_zeros()
     return A
 
@@ -41,11 +45,11 @@ def facet_couplings(mesh, coefficient=None):
     return k if coefficient is None else k * coefficient
 
 
-def _vertex_matrix(mesh, coefficient):
+def _vertex_matrix(mesh, couplings):
     """The couplings, their transpose, and the diagonal that makes all rows sum to zero."""
     from scipy.sparse import csr_array
 
-    upper = _upper_triangle(mesh, coefficient)
+    upper = _upper_triangle(mesh, couplings)
     mesh.forget_facets()  # P1 needs them here alone
     lower, count = upper.T.tocsr(), upper.shape[0]
     own, ones = np.arange(count + 1, dtype=np.int32), np.ones(count)
@@ -55,25 +59,25 @@ def _vertex_matrix(mesh, coefficient):
     return couplings + diagonal
 
 
-def _upper_triangle(mesh, coefficient):
+def _upper_triangle(mesh, couplings):
     """Facets in lexicographic order are the couplings of vertices above the diagonal, row by row."""
     from scipy.sparse import csr_array
 
     start, end = mesh.facets
     count = mesh.number_of_vertices
-    coupling = np.bincount(mesh.t2f.ravel(), facet_couplings(mesh, coefficient).ravel(), minlength=start.size)
+    coupling = np.bincount(mesh.t2f.ravel(), couplings.ravel(), minlength=start.size)
     first = np.zeros(count + 1, dtype=np.int32)
     np.cumsum(np.bincount(start, minlength=count), out=first[1:])
     return csr_array((coupling, end, first), shape=(count, count))
 
 
-def _facet_matrix(mesh, coefficient):
+def _facet_matrix(mesh, couplings):
     """Two facets share at most one triangle, so no two couplings are summed."""
     from scipy.sparse import coo_array
 
     t2f, count = mesh.t2f.astype(np.int32, copy=False), mesh.number_of_facets
     ones, others = (np.concatenate([t2f[pair[side]] for pair in ((1, 2), (2, 0), (0, 1))]) for side in (0, 1))
-    coupling = 4.0 * facet_couplings(mesh, coefficient).ravel()
+    coupling = 4.0 * couplings.ravel()
     diagonal = -np.bincount(ones, coupling, minlength=count) - np.bincount(others, coupling, minlength=count)
     own = np.arange(count, dtype=t2f.dtype)
     rows, columns = np.concatenate([ones, others, own]), np.concatenate([others, ones, own])

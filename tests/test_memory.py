@@ -1,7 +1,10 @@
 """A level that this machine cannot hold is refused before the work."""
 
+import tracemalloc
+
 import pytest
 
+from bisection import l_shape
 from builders import grid, statement
 from signorini import memory
 from signorini.exceptions import MeshError
@@ -31,7 +34,7 @@ def test_case_10_a_level_beyond_all_memory_is_refused_with_a_prediction(size):
     ids=["grid", "pattern", "polygon"],
 )
 def test_the_prediction_is_made_for_every_kind_of_mesh(monkeypatch, domain, boundary, fits, not_any_more):
-    """As on a machine with 0.1 MB: a grid takes 30 bytes per triangle, other meshes 100."""
+    """As on a machine with 0.1 MB: a grid takes 30 bytes per triangle, other meshes 85."""
     monkeypatch.setattr(memory, "_memory", lambda: 1e5)
     made = make_domain(domain, boundary, 2)
     assert made.level(fits).number_of_triangles > 0
@@ -61,3 +64,48 @@ def test_memory_is_known_and_bounded_by_the_limit_of_the_process(monkeypatch):
     assert 2**20 < memory._memory() < float("inf")
     monkeypatch.setattr(resource, "getrlimit", lambda _: (2**20, resource.RLIM_INFINITY))
     assert memory._memory() == 2**20
+
+
+def times_refined(mesh, times):
+    for _ in range(times):
+        mesh = mesh.refined()
+    return mesh
+
+
+def traced_peak(fine, coarse, element, method):
+    """Bytes for each unknown of making a mesh, discretising and solving; a coarse one has loaded the libraries."""
+    asked = statement(f="10*(1 - x)")
+    solve(discretize_on(coarse(), element, asked), method)
+    tracemalloc.start()
+    try:
+        problem = discretize_on(fine(), element, asked)
+        solve(problem, method)
+        return tracemalloc.get_traced_memory()[1] / problem.b.size
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize(("element", "most"), [("P1", 400), ("CR", 350)])
+def test_multigrid_on_a_refined_mesh_keeps_to_its_bytes(element, most):
+    """As docs/solvers.md says; with numbers of 64 bits, and the finest facets kept, P1 took 485 to 508."""
+    fine, coarse = (lambda: times_refined(l_shape(), 6)), (lambda: times_refined(l_shape(), 3))
+    assert traced_peak(fine, coarse, element, "multigrid") < most
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_fourier_keeps_to_its_bytes(element):
+    """As docs/solvers.md says."""
+    assert traced_peak(lambda: grid(512), lambda: grid(16), element, "fourier") < 50
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_a_discretised_mesh_needs_what_is_predicted_or_more(element):
+    """A prediction above the need would refuse what fits."""
+    tracemalloc.start()
+    try:
+        mesh = times_refined(l_shape(), 6)
+        discretize_on(mesh, element, statement(f="10*(1 - x)"))
+        needed = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert needed >= memory.MESH * mesh.number_of_triangles

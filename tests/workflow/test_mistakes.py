@@ -162,3 +162,20 @@ def test_a_scene_that_cannot_be_solved(fresh):
     assert run.errors
     assert all("add a dirichlet part" in line for line in run.errors)
     assert [name for name in fresh.results() if not name.startswith("meshes")] == []
+
+
+@pytest.mark.parametrize("where", ["levels", "truth"])
+def test_a_level_that_no_memory_holds_is_refused_before_any_job(fresh, where):
+    """It needs 590 GB for P1, a terabyte for CR; the coarser levels are not solved first, nor is the mesh made."""
+    fresh.edit("config/scenes/small.yaml", "load_quadrature: centroid", "solver: {method: direct}")
+    if where == "levels":
+        fresh.edit("config/scenes/small.yaml", "levels: [2, 4]", "levels: [2, 16384]")
+    fresh.edit("config/scenes/small.yaml", "n: 16}", "n: 16384, element: P1}")
+    run = fresh.run()
+    (error,) = run.errors
+    assert run.code == 1
+    assert error.startswith("error: config/scenes/small.yaml: levels: n = 16384 for ")
+    assert "by solver.method direct" in error
+    assert "GB here; set solver.method to fourier" in error
+    assert not (fresh / "results").exists()
+    assert fresh.jobs()  # it left no lock

@@ -62,6 +62,20 @@ def check_results():
             raise SignoriniError(f"{folder}: not a folder that can be written; make it one, or move it away")
 
 
+def check_memory(jobs):
+    """Refuse to start where a job could not hold its level; on a cluster each job says so itself."""
+    from signorini.foresight import check_level
+
+    for job in jobs:
+        if job.rule.name in ("solve", "reference"):
+            name, n = job.wildcards.scene, int(job.params.get("n") or job.wildcards.n)
+            element = job.params.get("element") or job.wildcards.element
+            try:
+                check_level(scene(name).problem, element, n, job.params.method)
+            except SignoriniError as error:
+                sys.exit(f"error: config/scenes/{name}.yaml: {error}")
+
+
 @cache
 @reported
 def scene(name):

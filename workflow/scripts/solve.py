@@ -5,6 +5,7 @@ import logging
 
 from stage import options, run
 
+from signorini.foresight import check_level
 from signorini.mesh import read_domain
 from signorini.problem import discretize_on
 from signorini.results import write_solution
@@ -18,6 +19,7 @@ def main(arguments):
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
     domain = read_domain(arguments.mesh)
+    check_level(statement, arguments.element, arguments.n, arguments.method, domain)
     statement.check(domain)
     problem = discretize_on(domain.level(arguments.n), arguments.element, statement)
     solution = solve(problem, arguments.method)

@@ -96,6 +96,16 @@ class Rectangle:
                 )
         return round(counts[0]), round(counts[1])
 
+    @property
+    def uniform(self):
+        """Whether arithmetic describes every level, a `Grid`."""
+        altered = self.grade is not None or self.perturb is not None
+        return self.diagonal in CORNERS and not altered and not by_formula(self.boundary)
+
+    def count_triangles(self, n):
+        """Number of triangles of level n, which is not made; errors as for `counts`."""
+        return math.prod(self.counts(n)) * (4 if self.diagonal == "criss-cross" else 2)
+
     def level(self, n):
         """The triangulation of level n: a `Grid` where arithmetic describes it, else a `Triangulation`.
 
@@ -109,11 +119,8 @@ class Rectangle:
         counts, origin, size = self.counts(n), tuple(map(float, self.origin)), tuple(map(float, self.size))
         upper = [a + b for a, b in zip(origin, size, strict=True)]
         check_resolution(origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain")
-        plain = self.diagonal in CORNERS and not by_formula(self.boundary)
-        plain = plain and self.grade is None and self.perturb is None
-        triangles = math.prod(counts) * (4 if self.diagonal == "criss-cross" else 2)
-        check_memory(triangles, GRID if plain else MESH, f"n = {n}")
-        if plain:
+        check_memory(self.count_triangles(n), GRID if self.uniform else MESH, f"n = {n}")
+        if self.uniform:
             return Grid(*counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES))
         return self._cut(counts, origin, size)
 
@@ -158,9 +165,18 @@ class Refined:
     width: float
     boundary: dict | None = None
 
+    uniform = False  # as `Rectangle.uniform`: no level is a `Grid`
+
     @cached_property
     def _levels(self):
         return {self.coarsest: self.root}
+
+    def count_triangles(self, n):
+        """Number of triangles of level n, which is not made; errors as for `level`."""
+        ratio, rest = divmod(n, self.coarsest)
+        if rest or ratio < 1 or ratio & (ratio - 1):
+            raise MeshError(f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it")
+        return ratio**2 * self.root.number_of_triangles
 
     def level(self, n):
         """The triangulation of level n.
@@ -170,11 +186,9 @@ class Refined:
         MeshError
             If n is no power of two times the root's level.
         """
-        ratio, rest = divmod(n, self.coarsest)
-        if rest or ratio < 1 or ratio & (ratio - 1):
-            raise MeshError(f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it")
+        triangles = self.count_triangles(n)
         if n not in self._levels:
-            check_memory(ratio**2 * self.root.number_of_triangles, MESH, f"n = {n}")
+            check_memory(triangles, MESH, f"n = {n}")
             self._levels[n] = self._refined(self.level(n // 2))
         return self._levels[n]
 

@@ -1,5 +1,11 @@
 """A level is judged before it is made, and the message says what would do."""
 
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
 from builders import statement
@@ -10,6 +16,7 @@ from signorini.mesh import make_domain
 from signorini.mesh.domain import Rectangle, Refined
 from signorini.statement import ProblemStatement
 
+ROOT = Path(__file__).parents[1]
 SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
 SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"}
 TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
@@ -49,7 +56,65 @@ def no_mesh(monkeypatch):
 def test_triangles_are_counted_without_a_mesh(domain, n):
     made = make_domain(*DOMAINS[domain], 4)
     assert made.count_triangles(n) == made.level(n).number_of_triangles
-    assert made.uniform == (domain in ("square", "per-unit"))
+    assert getattr(made, "uniform", False) == (domain in ("square", "per-unit"))
+
+
+def limit(monkeypatch, refused):
+    """The least memory with which `refused()` passes, bytes."""
+    low, high = 0.0, 1e12
+    while high - low > 1:
+        middle = 0.5 * (low + high)
+        monkeypatch.setattr(memory, "_memory", lambda given=middle: given)
+        low, high = (low, middle) if _passes(refused) else (middle, high)
+    return high
+
+
+def _passes(check):
+    try:
+        check()
+    except MeshError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_a_domain_that_has_not_been_made_is_judged_nearly_alike(monkeypatch, domain):
+    """Exactly where it is a rectangle; a polygon's triangles are a few more than its area tells."""
+    made = make_domain(*DOMAINS[domain], 4)
+    known, guessed = (
+        limit(monkeypatch, lambda given=given: check_level(asked(domain), "CR", 64, "multigrid", given))
+        for given in (made, None)
+    )
+    if isinstance(made, Rectangle):
+        assert known == pytest.approx(guessed)
+    else:
+        assert 1 <= known / guessed < 1.5
+
+
+def test_a_hole_is_no_part_of_the_area(monkeypatch):
+    """Nor does the sense of rotation matter."""
+    square = [[0, 0], [2, 0], [2, 2], [0, 2]]
+    plain, pierced, reversed_ = (
+        replace(asked("polygon"), domain={"kind": "polygon", "corners": corners, "holes": holes})
+        for corners, holes in ((square, []), (square, [[[1, 1], [1, 1.5], [1.5, 1]]]), (square[::-1], []))
+    )
+    limits = [
+        limit(monkeypatch, lambda one=one: check_level(one, "P1", 64, "direct")) for one in (plain, pierced, reversed_)
+    ]
+    assert limits == pytest.approx([2 * 64**2 * area * memory.DIRECT["P1"] for area in (4, 3.875, 4)])
+
+
+def test_levels_that_fit_are_judged_without_numpy():
+    """Snakemake's own process does it at the start of every build."""
+    scene = "config/scenes/paper.yaml"
+    code = f"""
+import sys
+from signorini.foresight import check_level
+from signorini.scene import load_scene
+check_level(load_scene({scene!r}).problem, "CR", 512, "auto")
+assert not {{"numpy", "signorini.mesh"}} & set(sys.modules)
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, env=os.environ | {"PYTHONPATH": "src"})
 
 
 REFUSED = {

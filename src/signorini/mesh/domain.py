@@ -165,8 +165,6 @@ class Refined:
     width: float
     boundary: dict | None = None
 
-    uniform = False  # as `Rectangle.uniform`: no level is a `Grid`
-
     @cached_property
     def _levels(self):
         return {self.coarsest: self.root}

@@ -1,112 +1,374 @@
-"""Solutions in extended precision (80 bits): what solutions in double precision are held against.
+"""Solutions in extended precision (80 bits): the judge of solutions in double precision.
 
-The stiffness matrix is assembled anew from the vertices, in extended precision, because its rounding to double is what
-costs accuracy on stretched cells. The factors of the double precision matrix then serve as a preconditioner: every step
-takes the residual of the exact matrix, and the contact set is changed until no sign of gap or force is wrong.
+The judge takes vertices, coefficient, load, obstacle and Dirichlet values as exact, and shares no arithmetic with the
+solvers. Couplings are formed anew from the vertices; of a `Grid`, from side lengths over numbers of cells. The matrix
+is never formed: what acts on a degree of freedom is the sum of couplings times differences, and the elimination keeps
+couplings too, so that neither stiff parts nor graded cells cost digits. The solution is the sum of two numbers at each
+degree of freedom, refined until its steps drown in round-off.
+
+The judge knows its own error: what rounding of all terms of the forces, by random signs, does to gaps and forces. A
+sign counts only beyond that, and the contact set is exchanged until no sign that counts is wrong.
 """
+
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
-from signorini.solvers.contact import DenseContact
-from signorini.solvers.direct import Condensed
+from signorini.mesh.grid import Grid
+from signorini.studies.elimination import EXTENDED, Elimination
 
-EXTENDED = np.longdouble
-_EPS = float(np.finfo(EXTENDED).eps)
-_LARGEST_CHANGE = 1e-6
-_MAX_STEPS = 400
+EPS = float(np.finfo(EXTENDED).eps)
+DOUBLE = float(np.finfo(float).eps)
+_SAMPLES = 5
+_SAFETY = 4.0  # between the largest of so many samples and a bound
+_MOST_STEPS = 60
+_PATIENCE = 4  # exchanges of all wrong signs without gain before one at a time (Judice and Pires 1994)
+
+# The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its ends, of CR the others.
+_COUPLED = {"P1": ((0, 1), (1, 2), (2, 0)), "CR": ((1, 2), (2, 0), (0, 1))}
+_FACTOR = {"P1": 1, "CR": 4}
 
 
-def extended_stiffness(mesh, element):
-    """The stiffness matrix for coefficient 1, by edge vectors.
+class Couplings(NamedTuple):
+    """Terms w (u_i - u_j) of the forces, one for every facet of every triangle.
 
-    With e_i the edge opposite vertex i of a triangle T, P1 has the entries e_i.e_j / (4 |T|), and CR four times those,
-    on the edges in place of the opposite vertices.
+    ``first`` and ``second`` are i and j, ``weight`` w, and ``rounding`` what w is summed from: eps times it is the
+    error of w. All have shape (3 nt,); the last two are longdouble, in the unit of the coefficient.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    weight: np.ndarray
+    rounding: np.ndarray
+
+
+def couplings(mesh, element, coefficient=None):
+    """The couplings of the Dirichlet form.
+
+    With a and b the edges of a triangle from the facet's ends to the opposite vertex, P1 couples the ends by
+    w = a.b / (2 |a x b|), half the cotangent of the angle; CR couples the other two facets by 4 w.
 
     Parameters
     ----------
     mesh : Grid or Triangulation
     element : {"P1", "CR"}
+    coefficient : ndarray, shape (nt,), optional
 
     Returns
     -------
-    scipy.sparse.csr_array of longdouble, shape (ndof, ndof)
+    Couplings
     """
+    edges = _edge_vectors(mesh)
+    crossing = edges[0, 0] * edges[1, 1], edges[0, 1] * edges[1, 0]
+    area = np.abs(crossing[0] - crossing[1])
+    flat = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
+    scale = EXTENDED(0.5 * _FACTOR[element]) / area * (1 if coefficient is None else coefficient.astype(EXTENDED))
+    dofs, found = find_element(element).triangle_dofs(mesh), []
+    for facet, (one, other) in enumerate(_COUPLED[element]):
+        along = edges[facet - 2] * edges[facet - 1]
+        weight = -scale * along.sum(axis=0)
+        found.append((dofs[one], dofs[other], weight, scale * np.abs(along).sum(axis=0) + flat * np.abs(weight)))
+    return Couplings(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+
+
+def _edge_vectors(mesh):
+    """The edges 01, 12 and 20 of all triangles, longdouble, shape (3, 2, nt)."""
+    if isinstance(mesh, Grid):
+        spacing = np.array(mesh.size, dtype=EXTENDED) / (mesh.nx, mesh.ny)
+        corners = np.repeat(np.array(mesh.corners).transpose(1, 2, 0), mesh.nx * mesh.ny, axis=2) * spacing[:, None]
+    else:
+        corners = mesh.p.astype(EXTENDED)[:, mesh.t].transpose(1, 0, 2)
+    return np.roll(corners, -1, axis=0) - corners
+
+
+def extended_stiffness(mesh, element, coefficient=None):
+    """The stiffness matrix of `couplings`, scipy.sparse.csr_array of longdouble, shape (ndof, ndof)."""
     from scipy.sparse import coo_array
 
-    p, t = mesh.p.astype(EXTENDED), mesh.t
-    opposite = [p[:, t[(i + 2) % 3]] - p[:, t[(i + 1) % 3]] for i in range(3)]
-    area = np.abs(opposite[0][0] * opposite[1][1] - opposite[0][1] * opposite[1][0]) / 2
-    dofs, factor, size = (t, 0.25, mesh.number_of_vertices)
-    if element == "CR":
-        dofs, factor, size = mesh.t2f[[1, 2, 0]], 1.0, mesh.number_of_facets  # facets run 01, 12, 02
-    entries = [factor * (opposite[i] * opposite[j]).sum(axis=0) / area for i in range(3) for j in range(3)]
-    rows, columns = (np.concatenate([dofs[k] for k in order]) for order in ((0, 0, 0, 1, 1, 1, 2, 2, 2), (0, 1, 2) * 3))
-    return coo_array((np.concatenate(entries), (rows, columns)), shape=(size, size)).tocsr()
+    first, second, weight, _ = couplings(mesh, element, coefficient)
+    size = find_element(element).size(mesh)
+    rows, columns = np.concatenate([first, second] * 2), np.concatenate([second, first, first, second])
+    return coo_array((np.concatenate([-weight, -weight, weight, weight]), (rows, columns)), shape=(size, size)).tocsr()
 
 
-def extended_solution(problem, solution):
-    """Solve a problem to extended precision, starting from a solution in double precision.
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """A solution in extended precision, and what it is sure of.
+
+    Parameters
+    ----------
+    shift : longdouble
+        A constant, one of the data, taken off u: digits are those of the variation.
+    displacement : ndarray of longdouble, shape (ndof,)
+        u - shift.
+    multiplier : ndarray of longdouble, shape (nc,)
+        Contact force on each contact degree of freedom.
+    active : ndarray of bool, shape (nc,)
+        Where the constraint binds.
+    margin : ndarray, shape (nc,)
+        Gap or force of each contact degree of freedom in units of its own error bound; its sign is sure above 1.
+    variation : float
+        max u - min u, or max |u| where u is constant.
+    acting : float
+        The largest sum of |a_ij (u_i - u_j)| and |b_i| of a contact row.
+    error, multiplier_error : float
+        Error bounds of the judge's own; of the multiplier, relative to its largest entry, or to `acting` where that
+        vanishes in double precision.
+    limit, multiplier_limit : float
+        What rounding of all terms of the forces to double precision does to u and to the multiplier, as relative
+        errors; the first also what rounding of u itself does. No algorithm that is told no more than the entries of the
+        matrix can be expected to do better.
+    """
+
+    shift: np.longdouble
+    displacement: np.ndarray
+    multiplier: np.ndarray
+    active: np.ndarray
+    margin: np.ndarray
+    variation: float
+    acting: float
+    error: float
+    multiplier_error: float
+    limit: float
+    multiplier_limit: float
+
+    @property
+    def u(self):
+        """The solution, longdouble, shape (ndof,)."""
+        return self.shift + self.displacement
+
+    def distance(self, u):
+        """Largest error of u, relative to the variation."""
+        return _ratio(_largest((u - self.shift) - self.displacement), self.variation)
+
+    def multiplier_distance(self, multiplier, decided):
+        """Largest error of contact forces, relative to the largest at the dofs `decided`, or to `acting`."""
+        pressing = np.max(self.multiplier, where=decided, initial=0)
+        return _ratio(_largest(multiplier - self.multiplier), pressing or self.acting)
+
+    def wrong_side(self, active, undecided):
+        """Number of contact dofs on whose sides we and the judge are decided, and differ."""
+        return int(np.sum((active != self.active) & (self.margin > 1) & ~undecided))
+
+    def needless(self, undecided, factor):
+        """Number of dofs undecided, though the sign exceeds its error in double precision by a factor."""
+        return int(np.sum(undecided & (self.margin > factor * DOUBLE / EPS)))
+
+
+def judge(problem, solution=None):
+    """Solve a problem in extended precision.
 
     Parameters
     ----------
     problem : Problem
-        With coefficient 1.
-    solution : Solution
+    solution : Solution, optional
+        Where to start; what is found does not depend on it.
 
     Returns
     -------
-    u : ndarray of longdouble, shape (ndof,)
-    change : float
-        The last step's, relative to u: an estimate of what is still wrong.
+    Judgement
 
     Raises
     ------
     SolverError
-        If the steps do not become small, or the contact set does not settle.
+        If the matrix is not positive definite, to its digits, or no contact set without a wrong sign is found.
     """
-    exponent = _exponent(problem)
-    A = extended_stiffness(problem.mesh, problem.element)
-    b, lower, fixed, u = (
-        np.ldexp(values.astype(EXTENDED), -exponent)
-        for values in (problem.b, problem.lower, problem.fixed_values, solution.u)
-    )
-    c, active = problem.contact, solution.active.copy()
-    u[problem.fixed], u[c[active]] = fixed, lower[active]
-    condensed, best = Condensed(problem), np.inf
-    operator = DenseContact(condensed.S) if c.size else None
-    for _ in range(_MAX_STEPS):
-        size = float(np.max(np.abs(u), initial=0)) or 1.0
-        step = _displacement(condensed, operator, active, (b - A @ u).astype(float))
-        u += step
-        change = float(np.max(np.abs(step), initial=0)) / size
-        if change > 0.5 * best or change <= 4 * _EPS:
-            if min(best, change) > _LARGEST_CHANGE:
-                break
-            wrong = _wrong(A, b, lower, c, u, active, 64 * max(change, _EPS))
+    return _Search(problem).run(solution)
+
+
+class _Search:
+    """The state of a search: u as head + tail, shifted, and the contact set."""
+
+    def __init__(self, problem):
+        self.problem, self.body = problem, _Body(problem)
+        data = np.concatenate([problem.fixed_values, problem.lower])
+        self.shift = data[:1].astype(EXTENDED).sum()
+        self.lower = problem.lower.astype(EXTENDED) - self.shift
+        self.b = problem.b.astype(EXTENDED)
+        self.signs = np.random.default_rng(0).choice((-1, 1), (problem.b.size, _SAMPLES))
+        self.signs[:, 0] = 1  # where the inverse is positive, this sample is a bound
+
+    def run(self, solution):
+        active, last = self._start(solution), np.inf
+        for _ in range(_MOST_STEPS):
+            before = active.copy()
+            loads, noise = self._loads()
+            found = self.body.respond(loads, noise, self._gap(), active)
+            active = found.active
+            self._move(found)
+            step, drowned = _largest(found.step), _largest(found.noise)
+            if not found.wrong.any() and np.array_equal(active, before) and (step <= drowned or 2 * step > last):
+                return self._verdict(found)
+            last = step if np.array_equal(active, before) else np.inf
+        raise SolverError(f"extended precision: no contact set in {_MOST_STEPS} steps, or none but for round-off")
+
+    def _start(self, solution):
+        fixed, contact = self.problem.fixed, self.problem.contact
+        active = np.ones(contact.size, dtype=bool) if solution is None else solution.active.copy()
+        self.head = np.zeros_like(self.b) if solution is None else solution.u.astype(EXTENDED) - self.shift
+        self.head[fixed] = self.problem.fixed_values.astype(EXTENDED) - self.shift
+        self.head[contact[active]] = self.lower[active]
+        self.tail = np.zeros_like(self.b)
+        return active
+
+    def _loads(self):
+        """b - A u, and samples of its round-off, shape (ndof, samples)."""
+        force, terms = self.body.forces(self.head, self.tail)
+        return self.b - force, EPS * (terms + np.abs(self.b))[:, None] * self.signs
+
+    def _gap(self):
+        contact = self.problem.contact
+        return (self.head[contact] - self.lower) + self.tail[contact]
+
+    def _move(self, found):
+        """Add the step; what the sum rounds off goes to the tail."""
+        moved = self.tail + found.step
+        total = self.head + moved
+        part = total - self.head
+        self.head, self.tail = total, (self.head - (total - part)) + (moved - part)
+        held = self.problem.contact[found.active]
+        self.head[held], self.tail[held] = self.lower[found.active], 0
+
+    def _verdict(self, found):
+        u, size = self.head + self.tail, _largest(self.head + self.tail + self.shift)
+        variation = u.max() - u.min()
+        variation = variation if variation > DOUBLE * size else size
+        multiplier = np.where(found.active, np.maximum(found.force, 0), 0)
+        _, terms = self.body.forces(self.head, self.tail)
+        acting = _largest((terms + np.abs(self.b))[self.problem.contact])
+        noise, rounding, doubled = _largest(found.noise), _largest(found.force_error), DOUBLE / EPS
+        force = _largest(multiplier)
+        force = force if force > doubled * rounding else acting
+        value = np.where(found.active, found.force, found.gap)
+        bound = np.where(found.active, found.force_error, found.gap_error)
+        return Judgement(
+            shift=self.shift,
+            displacement=u,
+            multiplier=multiplier,
+            active=found.active,
+            margin=np.divide(value, bound, out=np.where(value > 0, EXTENDED(np.inf), EXTENDED(0)), where=bound > 0),
+            variation=variation,
+            acting=acting,
+            error=_ratio(_SAFETY * noise + _largest(found.step), variation),
+            multiplier_error=_ratio(rounding, force),
+            limit=max(doubled * _ratio(noise, variation), DOUBLE * _ratio(size, variation)),
+            multiplier_limit=doubled * _ratio(rounding, _SAFETY * force),
+        )
+
+
+class _Response(NamedTuple):
+    """What loads do with a contact set: the step of u and that of round-off; gaps, forces and their errors after it."""
+
+    active: np.ndarray
+    wrong: np.ndarray
+    step: np.ndarray
+    noise: np.ndarray
+    gap: np.ndarray
+    force: np.ndarray
+    gap_error: np.ndarray
+    force_error: np.ndarray
+
+
+class _Body:
+    """A problem's couplings with all but the contact unknowns eliminated, once."""
+
+    def __init__(self, problem):
+        self.couplings = couplings(problem.mesh, problem.element, problem.coefficient)
+        self.size, self.contact = problem.b.size, problem.contact
+        first, second, weight, _ = self.couplings
+        inside = np.ones(self.size, dtype=bool)
+        inside[problem.fixed] = inside[problem.contact] = False
+        self.interior = _narrow_order(np.flatnonzero(inside), first, second)
+        count, kept = self.interior.size, self.contact.size + 1
+        place = np.full(self.size, count + kept - 1)
+        place[self.interior], place[self.contact] = np.arange(count), count + np.arange(self.contact.size)
+        low, high = np.sort([place[first], place[second]], axis=0)
+        within, beyond = high < count, (low < count) & (high >= count)
+        border = np.zeros((count, kept), dtype=EXTENDED)
+        np.add.at(border, (low[beyond], high[beyond] - count), weight[beyond])
+        self.elimination = Elimination(low[within], high[within], weight[within], border)
+        self.block = self.elimination.block
+        outer = low >= count
+        for pair in ((low, high), (high, low)):
+            np.add.at(self.block, tuple(ends[outer] - count for ends in pair), weight[outer])
+        np.fill_diagonal(self.block, 0)
+        self.floating = not problem.fixed.size
+
+    def forces(self, head, tail):
+        """Sums of w (u_i - u_j), and of the terms that they are rounded from, each of shape (ndof,)."""
+        first, second, weight, rounding = self.couplings
+        difference = (head[first] - head[second]) + (tail[first] - tail[second])
+        force, terms = np.zeros_like(head), np.zeros_like(head)
+        np.add.at(force, first, weight * difference)
+        np.subtract.at(force, second, weight * difference)
+        for ends in (first, second):
+            np.add.at(terms, ends, rounding * np.abs(difference))
+        return force, terms
+
+    def respond(self, loads, noise, gap, guess):
+        """Exchange the contact set until no sign that exceeds its error is wrong; a `_Response`."""
+        columns = np.column_stack([loads, noise])
+        inner, reduced = self.elimination.reduce(columns[self.interior])
+        reduced = reduced[:-1] + columns[self.contact]
+        active, fewest, patience = guess.copy(), np.inf, _PATIENCE
+        for _ in range(50 + 10 * active.size):
+            if self.floating and not active.any():
+                active[np.argmin(reduced[:, 0])] = True
+            moved, rate = _equilibrium(self.block, reduced, gap, active)
+            after = gap + moved[:, 0]
+            gap_error, force_error = (_SAFETY * np.max(np.abs(v[:, 1:]), axis=1, initial=0) for v in (moved, rate))
+            wrong = np.where(active, rate[:, 0] < -force_error, after < -gap_error)
             if not wrong.any():
-                return np.ldexp(u, exponent), change
-            active[np.flatnonzero(wrong)[-1]] ^= True
-            u[c[active]] = lower[active]
-            change = np.inf
-        best = change
-    raise SolverError(f"extended precision: the steps stay at {change:.1e} of the solution")
+                break
+            count = np.count_nonzero(wrong)
+            fewest, patience = (count, _PATIENCE) if count < fewest else (fewest, patience - 1)
+            active[wrong if patience > 0 else np.flatnonzero(wrong)[-1]] ^= True
+        u = np.zeros_like(columns)
+        ground = np.zeros((1, columns.shape[1]), dtype=EXTENDED)
+        u[self.interior] = self.elimination.extend(inner, np.concatenate([moved, ground]))
+        u[self.contact] = moved
+        return _Response(active, wrong, u[:, 0], u[:, 1:], after, rate[:, 0], gap_error, force_error)
 
 
-def _exponent(problem):
-    size = max(float(np.max(np.abs(v), initial=0.0)) for v in (problem.b, problem.lower, problem.fixed_values))
-    return int(np.frexp(size)[1])
+def _equilibrium(block, loads, gap, active):
+    """Close the gap of the active unknowns; the moves of all, and the forces left on them, for each column of loads.
+
+    The first column is the load, the others are loads without a gap.
+    """
+    moved = np.zeros_like(loads)
+    moved[active, 0] = -gap[active]
+    free, (held,) = ~active, np.nonzero(active)
+    weights = block[:-1, :-1]
+    to_held = weights[np.ix_(free, held)]
+    first, second = np.triu_indices(int(free.sum()), 1)
+    ground = block[:-1, -1][free] + to_held.sum(axis=1)
+    inner = Elimination(first, second, weights[np.ix_(free, free)][first, second], ground[:, None])
+    parts, _ = inner.reduce(loads[free] + to_held @ moved[held])
+    moved[free] = inner.extend(parts, np.zeros((1, loads.shape[1]), dtype=EXTENDED))
+    rate = (weights[:, :, None] * (moved[:, None] - moved[None])).sum(axis=1) + block[:-1, -1:] * moved - loads
+    return moved, rate
 
 
-def _displacement(condensed, operator, active, load):
-    w = np.zeros(active.size)
-    if not active.all():
-        w[~active] = operator.solve_free(~active, condensed.reduce(load)[~active])
-    return condensed.extend(load, w)
+def _narrow_order(nodes, first, second):
+    """Nodes in an order that keeps those coupled close together (reverse Cuthill-McKee)."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+    place = np.full(max(np.max(first), np.max(second)) + 1, -1)
+    place[nodes] = np.arange(nodes.size)
+    rows, columns = place[first], place[second]
+    inside = (rows >= 0) & (columns >= 0)
+    rows, columns = rows[inside], columns[inside]
+    pattern = coo_array((np.ones(2 * rows.size), (np.r_[rows, columns], np.r_[columns, rows])), shape=(nodes.size,) * 2)
+    return nodes[reverse_cuthill_mckee(pattern.tocsr(), symmetric_mode=True)]
 
 
-def _wrong(A, b, lower, c, u, active, tolerance):
-    """Where gap or force have the wrong sign, beyond a tolerance relative to the terms they are summed from."""
-    force, terms = (A @ u - b)[c], (abs(A) @ np.abs(u) + np.abs(b))[c]
-    gap = u[c] - lower
-    return np.where(active, force < -tolerance * terms, gap < -tolerance * np.max(np.abs(u), initial=0))
+def _largest(values):
+    return np.max(np.abs(values), initial=EXTENDED(0))
+
+
+def _ratio(value, size):
+    return float(value / size) if value else 0.0

@@ -8,7 +8,8 @@ from signorini.studies.stability_claims import claims
 from signorini.studies.stability_digits import digits
 from signorini.studies.stability_floor import EPS, crossings, growth
 from signorini.studies.stability_parts import title
-from signorini.studies.stability_success import SLOW, statuses, summary
+from signorini.studies.stability_proof import estimates, statuses
+from signorini.studies.stability_success import SLOW, summary
 from signorini.studies.texts import Table, markdown_table, seconds, tex, tex_figure, tex_table
 
 ELEMENTS = {"P1": "CF (P1)", "CR": "NCF (CR)"}

@@ -1,0 +1,99 @@
+"""Elimination of a network of couplings, node by node, in extended precision (80 bits).
+
+A matrix whose rows sum to zero but for a ground is known by its couplings alone. Eliminating a node joins its
+neighbours by the products of their couplings to it over the sum of all of them, so that no diagonal is ever formed:
+where couplings are positive nothing cancels, however far apart they are (Grassmann, Taksar and Heyman 1985).
+"""
+
+import numpy as np
+from numpy.lib.stride_tricks import as_strided
+
+from signorini.exceptions import SolverError
+
+EXTENDED = np.longdouble
+
+
+class Elimination:
+    """Nodes 0 to n - 1, eliminated in that order; others are kept.
+
+    Parameters
+    ----------
+    first, second : ndarray of int, shape (k,)
+        Pairs of nodes, first < second. A pair may come several times.
+    weight : ndarray of longdouble, shape (k,)
+        Their couplings, minus the entries of the matrix.
+    border : ndarray of longdouble, shape (n, m)
+        Couplings to the nodes kept, in any unit; the last of them is the ground.
+
+    Attributes
+    ----------
+    block : ndarray of longdouble, shape (m, m)
+        Couplings among the nodes kept that the elimination adds; the diagonal means nothing.
+
+    Raises
+    ------
+    SolverError
+        If the matrix is not positive definite.
+    """
+
+    def __init__(self, first, second, weight, border):
+        self.size, kept = border.shape
+        self.width = int(np.max(second - first, initial=1))
+        rows = self.size + self.width
+        self._near = np.zeros((rows, 2 * self.width + 1), dtype=EXTENDED)
+        np.add.at(self._near, (first, second - first + self.width), weight)
+        np.add.at(self._near, (second, first - second + self.width), weight)
+        self._far = np.zeros((rows, kept), dtype=EXTENDED)
+        self._far[: self.size] = border
+        self.block = np.zeros((kept, kept), dtype=EXTENDED)
+        self._pivots = np.empty(self.size, dtype=EXTENDED)
+        for node in range(self.size):
+            self._eliminate(node)
+
+    def _eliminate(self, node):
+        near, far = self._near[node, self.width + 1 :], self._far[node]
+        pivot = near.sum() + far.sum()
+        if not pivot > 0:
+            raise SolverError("extended precision: the stiffness matrix is not positive definite, to its digits")
+        share_near, share_far = near / pivot, far / pivot
+        after = slice(node + 1, node + 1 + self.width)
+        window = self._window(node + 1)
+        window += share_near[:, None] * near
+        self._far[after] += share_near[:, None] * far
+        self.block += share_far[:, None] * far
+        self._pivots[node], near[:], far[:] = pivot, share_near, share_far
+
+    def _window(self, node):
+        """The square of couplings among the `width` nodes from `node` on, a view."""
+        row, item = self._near.strides
+        return as_strided(self._near[node:, self.width :], (self.width, self.width), (row - item, item))
+
+    def reduce(self, load):
+        """Hand the load of the nodes to those kept.
+
+        Parameters
+        ----------
+        load : ndarray of longdouble, shape (n, r)
+
+        Returns
+        -------
+        loads : ndarray of longdouble, shape (n, r)
+            At each node when it is eliminated; what `extend` needs.
+        kept : ndarray of longdouble, shape (m, r)
+            What reaches the nodes kept.
+        """
+        loads = np.zeros((self.size + self.width, load.shape[1]), dtype=EXTENDED)
+        loads[: self.size] = load
+        for node in range(self.size):
+            share = self._near[node, self.width + 1 :]
+            loads[node + 1 : node + 1 + self.width] += share[:, None] * loads[node]
+        loads = loads[: self.size]
+        return loads, self._far[: self.size].T @ loads
+
+    def extend(self, loads, kept):
+        """Values at the nodes, shape (n, r), from `loads` of `reduce` and values at the nodes kept, shape (m, r)."""
+        values = np.zeros((self.size + self.width, loads.shape[1]), dtype=EXTENDED)
+        values[: self.size] = loads / self._pivots[:, None] + self._far[: self.size] @ kept
+        for node in range(self.size - 1, -1, -1):
+            values[node] += self._near[node, self.width + 1 :] @ values[node + 1 : node + 1 + self.width]
+        return values[: self.size]

@@ -1,0 +1,206 @@
+"""What our solutions state of themselves, held against solutions in extended precision."""
+
+import time
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.solvers import METHODS, kkt_residual, solve
+from signorini.studies.extended import DOUBLE, judge
+
+ERROR = 1e-10  # of u and of the multiplier, up to which a solution may be called solved
+RESIDUAL = 1e-9
+UNDERESTIMATE, OVERESTIMATE = 10.0, 1e3  # by which a stated accuracy may miss the error
+FLOOR = 4 * DOUBLE  # an error below that counts as so much: a few roundings
+# An estimate may be a thousand times the error, so from here on "inaccurate" may be due.
+INACCURATE_FROM = ERROR / OVERESTIMATE
+# An error that double precision makes likely, beyond which no digit is safe, and a solve may be refused.
+REFUSED_FROM = 1e-2
+NEEDLESS = 1e3  # by which a sign exceeds its error in double precision where it is undecided without need
+PROOF = (
+    *("status", "refused", "accuracy", "multiplier_accuracy", "undecided"),
+    *("error", "multiplier_error", "wrong_side", "needless", "limit", "multiplier_limit"),
+)
+TRUSTED = 1e-3  # an error of the truth itself up to which it is one
+_WORDS = 160  # letters of a refusal that are kept
+_PAIRS = (("", "accuracy", "error"), ("multiplier_", "multiplier_accuracy", "multiplier_error"))
+
+
+def proofs(problem):
+    """Solve a problem by the route that is taken unasked, and by every route that applies.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    list of dict
+        Per solve ``solver``, ``ours`` or ``ours/<method>``; ``claimed``, whether it returned an answer; ``residual``,
+        recomputed; ``seconds``, ``iterations``; and
+
+        - ``status``, ``accuracy``, ``multiplier_accuracy`` and ``undecided`` (a number), as the solution states them;
+          a solve that raises an error has the status ``refused``, and its first words as ``refused``;
+        - against the solution in extended precision, ``error``, ``multiplier_error`` and ``wrong_side``, the number of
+          contact dofs decided for the wrong side; ``needless``, the number of those undecided without need; the first
+          three are not a number where even extended precision is too short;
+        - ``limit`` and ``multiplier_limit``, the errors that double precision makes likely; see `Judgement`.
+    """
+    problem.A  # noqa: B018 (assembled before the clock starts, as for the rivals)
+    rows, truth = [], None
+    for method in ("auto", *METHODS):
+        start = time.perf_counter()
+        try:
+            solution, refused = solve(problem, method), ""
+        except SolverError as error:
+            solution, refused = None, str(error)
+        seconds = time.perf_counter() - start
+        if "does not apply" not in refused:
+            truth = truth or _truth(problem, solution)
+            name = "ours" if method == "auto" else f"ours/{method}"
+            rows.append({"solver": name, "seconds": seconds} | proof(problem, solution, refused, truth))
+    return rows
+
+
+def _truth(problem, solution):
+    """In extended precision; None where even that is too short."""
+    try:
+        return judge(problem, solution)
+    except SolverError:
+        return None
+
+
+def proof(problem, solution, refused, truth):
+    """What a solution states, and how it compares with the truth; see `proofs`.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : Solution or None
+    refused : str
+        Why there is none.
+    truth : Judgement or None
+
+    Returns
+    -------
+    dict
+    """
+    nan = float("nan")
+    limits = (nan, nan) if truth is None else (truth.limit, truth.multiplier_limit)
+    found = dict(zip(("limit", "multiplier_limit"), limits, strict=True))
+    if solution is None:
+        words = {"status": "refused", "refused": refused[:_WORDS]}
+        return found | words | {"claimed": False, "residual": np.inf, "iterations": 0}
+    found |= {
+        "claimed": True,
+        "residual": kkt_residual(problem, solution.u)[0],
+        "iterations": solution.iterations,
+        "status": solution.status,
+        "accuracy": solution.accuracy,
+        "multiplier_accuracy": solution.multiplier_accuracy,
+        "undecided": int(solution.undecided.sum()),
+    }
+    if truth is None or truth.error > TRUSTED:
+        return found | {"error": nan, "multiplier_error": nan, "wrong_side": nan, "needless": 0}
+    return found | {
+        "error": truth.distance(solution.u),
+        "multiplier_error": truth.multiplier_distance(solution.multiplier, solution.active & ~solution.undecided),
+        "wrong_side": truth.wrong_side(solution.active, solution.undecided),
+        "needless": truth.needless(solution.undecided, NEEDLESS),
+    }
+
+
+def answered(row):
+    """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better."""
+    if row["status"] == "refused":
+        return bool(row["limit"] > REFUSED_FROM)
+    needed = max(row["limit"], row["multiplier_limit"]) > INACCURATE_FROM
+    return bool(row["residual"] <= RESIDUAL and (row["status"] == "solved" or needed))
+
+
+def right(row):
+    """Whether u, multiplier and contact set are those of a solution called solved; not where there is no truth."""
+    return row["error"] <= ERROR and row["multiplier_error"] <= ERROR and row["wrong_side"] == 0
+
+
+def estimated(row, which=""):
+    """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand times the error."""
+    accuracy, error = row[f"{which}accuracy"], row[f"{which}error"]
+    return bool(error <= UNDERESTIMATE * accuracy and accuracy <= OVERESTIMATE * max(error, FLOOR))
+
+
+def statuses(rows):
+    """What our statuses are worth, over all routes.
+
+    Parameters
+    ----------
+    rows : list of dict
+        As `stability_success.measure` gives them.
+
+    Returns
+    -------
+    list of dict
+        Per family and element: ``solutions``; ``solved``, ``inaccurate`` and ``refused``, how many are called so;
+        ``solved_error``, ``solved_multiplier_error`` and ``inaccurate_error``, the largest true errors among them;
+        ``wrong``, solved but not `right`; ``needed``, inaccurate with an error above 1e-10; ``unneeded``, not
+        `answered`; ``wrong_side``, ``undecided`` and ``needless``, contact dofs of all answers.
+    """
+    return [_status(family, element, own) for (family, element), own in _groups(rows).items()]
+
+
+def estimates(rows):
+    """How well our solutions know their errors, over all routes.
+
+    Returns
+    -------
+    list of dict
+        Per family and element, for u and, under the prefix ``multiplier_``, for the multiplier: ``median``, the median
+        of accuracy over error; ``least`` and ``most``, its extremes, an error below four roundings counting as so much
+        in the last; ``missed``, answers not `estimated`.
+    """
+    found = []
+    for (family, element), own in _groups(rows).items():
+        answers = [row for row in own if row["claimed"]]
+        row = {"family": family, "element": element, "answers": len(answers)}
+        for which, *pair in _PAIRS:
+            row |= {f"{which}{name}": value for name, value in _ratios(answers, *pair).items()}
+            row[f"{which}missed"] = sum(not estimated(answer, which) for answer in answers)
+        found.append(row)
+    return found
+
+
+def _groups(rows):
+    ours = [row for row in rows if row["solver"].startswith("ours/")]
+    keys = dict.fromkeys((row["family"], row["element"]) for row in ours)
+    return {key: [row for row in ours if (row["family"], row["element"]) == key] for key in keys}
+
+
+def _status(family, element, own):
+    by_name = {name: [row for row in own if row["status"] == name] for name in ("solved", "inaccurate", "refused")}
+    solved, inaccurate, refused = by_name.values()
+    answers = solved + inaccurate
+    return {
+        "family": family,
+        "element": element,
+        "solutions": len(own),
+        "solved": len(solved),
+        "solved_error": max((row["error"] for row in solved), default=0.0),
+        "solved_multiplier_error": max((row["multiplier_error"] for row in solved), default=0.0),
+        "wrong": sum(not right(row) for row in solved),
+        "inaccurate": len(inaccurate),
+        "inaccurate_error": max((row["error"] for row in inaccurate), default=None),
+        "needed": sum(not (row["error"] <= ERROR and row["multiplier_error"] <= ERROR) for row in inaccurate),
+        "refused": len(refused),
+        "unneeded": sum(not answered(row) for row in own),
+        **{name: sum(row[name] for row in answers) for name in ("wrong_side", "undecided", "needless")},
+    }
+
+
+def _ratios(answers, accuracy, error):
+    exact = [row[accuracy] / row[error] for row in answers if row[error] > 0]
+    floored = [row[accuracy] / max(row[error], FLOOR) for row in answers]
+    return {
+        "median": float(np.median(exact)) if exact else None,
+        "least": min(exact, default=None),
+        "most": max(floored, default=None),
+    }

@@ -16,13 +16,13 @@ from signorini.mesh.grid import SIDES
 from signorini.mesh.labels import labelled
 from signorini.problem import discretize, discretize_on
 from signorini.solvers import METHODS, solve
-from signorini.studies import stability_digits, stability_floor, stability_success
+from signorini.studies import stability_digits, stability_floor, stability_proof, stability_success
 from signorini.studies.elimination import Elimination
 from signorini.studies.extended import EPS, extended_stiffness, judge
 from signorini.studies.problems import BOUNDARIES, FAMILIES, LOADS, instance, pressed_flat
 from signorini.studies.rivals.timed import Arena
 from signorini.studies.stability_claims import claims
-from signorini.studies.stability_parts import digits_by_cell, shares, title, titles
+from signorini.studies.stability_parts import digits_by_cell, error_pairs, shares, title, titles
 
 extended_only = pytest.mark.skipif(EPS > 1e-18, reason="this machine's long double has 64 bits")
 
@@ -254,7 +254,14 @@ def test_a_rival_without_end_is_ended():
 
 def rows(solver="ours", **values):
     base = {"family": "needles", "load": "white", "element": "CR", "solver": solver, "claimed": 1, "residual": 1e-16}
-    return base | {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15} | values
+    base |= {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15}
+    base |= {"multiplier_accuracy": 1e-15, "multiplier_error": 1e-15, "wrong_side": 0, "undecided": 0, "needless": 0}
+    return base | {"limit": 1e-15, "multiplier_limit": 1e-15} | values
+
+
+def refused(solver="ours/direct", **values):
+    empty = dict.fromkeys(("accuracy", "multiplier_accuracy", "error", "multiplier_error", "wrong_side", "undecided"))
+    return rows(solver, claimed=0, status="refused", residual=np.inf, needless=None, **empty | values)
 
 
 def test_success_is_claimed_and_true():
@@ -277,12 +284,99 @@ def test_a_status_better_than_the_error_is_wrong():
         rows("ours/direct", error=2e-10),
         rows("ours/direct"),
         rows("ours/direct", error=np.nan),
-        rows("ours/direct", status="inaccurate", error=1e-4, accuracy=1e-3),
-        rows("ours/direct", status="inaccurate", error=1e-12, accuracy=1e-9),
+        rows("ours/direct", multiplier_error=2e-10),
+        rows("ours/direct", wrong_side=2),
+        rows("ours/direct", status="inaccurate", error=1e-4, accuracy=1e-3, limit=1e-4),
+        rows("ours/direct", status="inaccurate", error=1e-12, accuracy=1e-9, undecided=3, needless=1),
+        refused(limit=1.0),
+        refused(limit=1e-4),
     ]
-    (row,) = stability_success.statuses(found)
-    assert (row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (3, 2, 2, 1)
-    assert row["underestimate"] == pytest.approx(2e-10 / 1e-15)
+    (row,) = stability_proof.statuses(found)
+    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (9, 5, 4, 2, 1)
+    assert (row["refused"], row["unneeded"]) == (2, 2)
+    assert (row["wrong_side"], row["undecided"], row["needless"]) == (2, 3, 1)
+    assert row["solved_multiplier_error"] == 2e-10
+
+
+@pytest.mark.parametrize(
+    ("row", "right"),
+    [
+        (rows(), True),
+        (rows(residual=1e-8), False),
+        (rows(status="inaccurate"), False),
+        (rows(status="inaccurate", limit=1e-12), True),
+        (rows(status="inaccurate", multiplier_limit=1e-12), True),
+        (rows(status="inaccurate", limit=1e-12, residual=1e-8), False),
+        (rows(status="inaccurate", limit=np.nan), False),
+        (refused(limit=1e-3), False),
+        (refused(limit=0.1), True),
+        (refused(limit=np.nan), False),
+    ],
+)
+def test_less_than_solved_is_right_only_where_double_precision_cannot(row, right):
+    assert stability_proof.answered(row) is right
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "error", "right"),
+    [
+        (1e-12, 1e-12, True),
+        (1e-13, 1e-12, True),
+        (0.9e-13, 1e-12, False),
+        (1e-9, 1e-12, True),
+        (1.1e-9, 1e-12, False),
+        (0.0, 0.0, True),
+        (0.0, 1e-17, False),
+        (8e-13, 0.0, True),
+        (1e-12, 0.0, False),
+        (1e-12, np.nan, False),
+        (np.nan, 1e-12, False),
+    ],
+)
+@pytest.mark.parametrize("which", ["", "multiplier_"])
+def test_an_estimate_is_within_a_tenth_and_a_thousand(which, accuracy, error, right):
+    row = rows("ours/direct", **{f"{which}accuracy": accuracy, f"{which}error": error})
+    assert stability_proof.estimated(row, which) is right
+    (found,) = stability_proof.estimates([row, refused()])
+    other = "multiplier_" if not which else ""
+    assert (found[f"{which}missed"], found[f"{other}missed"], found["answers"]) == (int(not right), 0, 1)
+
+
+def test_estimates_are_those_of_the_answers():
+    found = [rows("ours/direct", accuracy=a, error=e) for a, e in ((1e-9, 1e-10), (1e-9, 1e-9), (1e-9, 1e-8))]
+    (row,) = stability_proof.estimates(found)
+    assert (row["least"], row["median"], row["most"], row["missed"]) == pytest.approx((0.1, 1, 10, 0))
+    assert error_pairs(found)["u"][0] == (1e-10, 1e-9, True)
+
+
+def test_a_solve_is_held_against_the_judge():
+    """Forces a thousandth too large, and one contact dof on the wrong side, named undecided or not."""
+    problem = discretize(statement(**DATA), "P1", 8)
+    right, truth = solve(problem), judge(problem)
+    flipped = right.active.copy()
+    flipped[4] ^= True
+    for undecided in (np.arange(9) == 4, np.zeros(9, dtype=bool)):
+        lie = SimpleNamespace(
+            u=right.u + 1e-6 * np.ptp(right.u),
+            multiplier=1.001 * right.multiplier,
+            active=flipped,
+            undecided=undecided,
+            **{"status": "solved", "iterations": 1, "accuracy": 1e-12, "multiplier_accuracy": 1e-12},
+        )
+        row = stability_proof.proof(problem, lie, "", truth)
+        assert row["error"] == pytest.approx(1e-6, rel=1e-6)
+        assert row["multiplier_error"] == pytest.approx(1e-3, rel=1e-6)
+        assert row["wrong_side"] == 1 - undecided.sum() == 1 - row["needless"]
+    row = stability_proof.proof(problem, None, "no digit: too stretched", truth)
+    assert (row["claimed"], row["status"], row["refused"]) == (False, "refused", "no digit: too stretched")
+
+
+def test_a_family_is_solved_by_every_route_that_applies():
+    found = stability_proof.proofs(instance("right-angled", "smooth", "P1", 0).problem)
+    assert [row["solver"] for row in found] == ["ours", "ours/fourier", "ours/direct", "ours/multigrid"]
+    assert all(row["error"] <= 1e-14 for row in found)
+    assert all(row["multiplier_error"] <= 1e-13 for row in found)
+    assert all(row["wrong_side"] == 0 for row in found)
 
 
 def test_a_claim_that_is_not_met_says_so():
@@ -294,8 +388,9 @@ def test_a_claim_that_is_not_met_says_so():
         "contact-sets": [{"active": 1, "expected": 0, "iterations": 1}],
         "walk": [{"status": "refused"}, {"status": "solved", "difference": 1.0, "condition": 1.0}],
     }
-    found = claims([rows(residual=1.0)], [{"wrong": 1}], [{"digits": 10.9}], extremes)
-    assert len(found) == 12
+    lie = rows(residual=1.0, error=1.0, multiplier_error=1.0)
+    found = claims([lie], [{"wrong": 1, "wrong_side": 1}], [{"digits": 10.9}], extremes)
+    assert len(found) == 15
     assert not any(row["met"] for row in found)
 
 

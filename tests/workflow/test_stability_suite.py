@@ -8,7 +8,7 @@ from project import LATEX, Project
 from signorini.studies.problems import FAMILIES
 from signorini.typeset import typeset
 
-FIGURES = ("ours", "rivals", "floor", "stretched")
+FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 
 
 @pytest.fixture(scope="module")

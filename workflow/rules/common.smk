@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import sys
+from datetime import date
 from functools import cache
 from pathlib import Path
 from shlex import quote
@@ -274,7 +275,16 @@ def digits_asked():
 
 
 def stability_pieces(folder, names):
-    return [f"{STUDIES}/stability/{folder}/{name}.csv" for name in names]
+    return [f"{STABILITY}/{folder}/{name}.csv" for name in names]
+
+
+def stability_seeds():
+    """0 for the fixed seeds; else the number asked for, or today's date as one (20261125), the same all day."""
+    seeds = CONFIG["seeds"]
+    if seeds == "random":
+        seeds = int(date.today().strftime("%Y%m%d"))
+        print(f"seeds: {seeds}; --config seeds={seeds} draws them again", file=sys.stderr)
+    return 0 if seeds == "fixed" else seeds
 
 
 def appendix():

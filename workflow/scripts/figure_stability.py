@@ -7,7 +7,8 @@ from stage import options, run
 from signorini.figures import stability as figures
 from signorini.figures.style import save_figure
 from signorini.studies.stability_floor import growth
-from signorini.studies.stability_parts import digits_by_cell, read_parts, shares, titles
+from signorini.studies.stability_parts import digits_by_cell, error_pairs, read_parts, shares, titles
+from signorini.studies.stability_proof import OVERESTIMATE, UNDERESTIMATE
 
 
 @options(("outputs", {"nargs": "+"}))
@@ -19,6 +20,7 @@ def main(arguments):
     drawings = {
         "ours": lambda: figures.draw_digits(digits_by_cell(success)),
         "rivals": lambda: figures.draw_rivals(shares(success, "load"), shares(success, "family"), titles(success)),
+        "estimates": lambda: figures.draw_estimates(error_pairs(success), (UNDERESTIMATE, OVERESTIMATE)),
         "floor": lambda: figures.draw_floor(errors, growth(floor["conditions"], "condition")),
         "stretched": lambda: figures.draw_stretched(floor["stretching"]),
     }

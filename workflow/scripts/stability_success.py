@@ -8,16 +8,17 @@ from signorini.studies.stability_success import measure
 
 @options(
     "--family",
-    ("--seeds", {"type": int}),
+    ("--seeds", {"type": int, "nargs": 2}),
     ("--few", {"type": int}),
     ("--time-limit", {"type": float}),
     "--output",
 )
 def main(arguments):
-    """A family's name to a row per problem and solver."""
-    rows = measure(arguments.family, arguments.seeds, arguments.few, arguments.time_limit)
+    """A family's name, the first seed and the number of seeds to a row per problem and solver."""
+    first, number = arguments.seeds
+    rows = measure(arguments.family, range(first, first + number), arguments.few, arguments.time_limit)
     write_csv(arguments.output, rows)
-    return f"success: {arguments.family}, {len(rows)} solves"
+    return f"success: {arguments.family}, seeds from {first} on, {len(rows)} solves"
 
 
 if __name__ == "__main__":

@@ -34,9 +34,10 @@ def draw_digits(cells):
     matplotlib.figure.Figure
     """
     elements, families, loads = (list(dict.fromkeys(key[k] for key in cells)) for k in range(3))
-    figure = new_figure(TEXT_WIDTH, 0.42 * TEXT_WIDTH)
+    height = 0.14 + 0.04 * len(families)
+    figure = new_figure(TEXT_WIDTH, height * TEXT_WIDTH)
     for k, element in enumerate(elements):
-        axes = figure.add_axes((0.13 + 0.45 * k, 0.2, 0.41, 0.7))
+        axes = figure.add_axes((0.13 + 0.45 * k, 0.084 / height, 0.41, 1 - 0.126 / height))
         values = [[cells[element, family, load][0] for load in loads] for family in families]
         shares = [[cells[element, family, load][1] for load in loads] for family in families]
         texts = [[_digits_text(*cell) for cell in zip(*row, strict=True)] for row in zip(values, shares, strict=True)]
@@ -90,6 +91,44 @@ def _heat(axes, values, texts, limits):
     axes.tick_params(length=0)
     for spine in axes.spines.values():
         spine.set_visible(True)
+
+
+@matplotlib.rc_context(SMALL)
+def draw_estimates(pairs, span):
+    """Stated accuracy against true error, a panel for u and one for the contact forces.
+
+    Parameters
+    ----------
+    pairs : dict
+        Title of a panel -> sequence of (error, accuracy, whether called solved), both positive.
+    span : tuple of float
+        By which factors accuracy over error may miss one, down and up.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
+    for k, (title, points) in enumerate(pairs.items()):
+        axes = figure.add_axes((0.085 + 0.5 * k, 0.14, 0.405, 0.76), xscale="log", yscale="log")
+        line = [1e-18, 1.0]
+        for factor in (1 / span[0], 1.0, span[1]):
+            look = {"linewidth": 0.6, "linestyle": "-" if factor == 1 else (0, (4, 2)), "zorder": 0}
+            axes.plot(line, [factor * x for x in line], color=GREY, **look)
+        for solved, colour, label in ((True, BLACK, "solved"), (False, ACCENT, "inaccurate")):
+            x, y = _thinned([(error, accuracy) for error, accuracy, own in points if own == solved])
+            axes.scatter(x, y, 3, colour, linewidths=0, label=label)
+        axes.axhline(1e-10, color=FAINT, linewidth=0.6, zorder=0)
+        axes.set(xlabel="true error", ylabel="" if k else "accuracy as stated", title=title, xlim=line, ylim=line)
+        axes.title.set_fontsize(8)
+    axes.legend(loc="upper left")
+    return figure
+
+
+def _thinned(points):
+    """One point for each tenth of a decade either way."""
+    cells = {tuple(round(10 * math.log10(value)) for value in point) for point in points}
+    return [[10 ** (cell[k] / 10) for cell in sorted(cells)] for k in (0, 1)]
 
 
 @matplotlib.rc_context(SMALL)

@@ -26,15 +26,15 @@ def claims(success, statuses, digits, extremes):
     unasked = [row for row in ours if row["solver"] == "ours"]
     return [
         _all(
-            f"generated problems solved, KKT residual at most {RESIDUAL:g}; or, where double precision can do no better, "
-            "called inaccurate or refused",
+            f"generated problems solved, KKT residual at most {RESIDUAL:g}; or called inaccurate or refused where "
+            "double precision can do no better",
             unasked,
             answered,
         ),
         _all("the same by every route that applies", ours, answered),
         _number(
-            f"solutions called solved whose error, in u or in the contact forces, is above {ERROR:g}, or whose contact set "
-            "is wrong",
+            f"solutions called solved with an error of u or of the contact forces above {ERROR:g}, or a contact set "
+            "that is wrong",
             sum(row["wrong"] for row in statuses),
             0,
         ),

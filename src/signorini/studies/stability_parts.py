@@ -7,13 +7,18 @@ import numpy as np
 from signorini.storage import read_csv
 from signorini.studies.problems import FAMILIES
 from signorini.studies.rivals import RIVALS
+from signorini.studies.stability_proof import answered
 from signorini.studies.stability_success import TOLERANCES
 
 CAPTIONS = {
-    "ours": "Correct digits of our worst solution of each kind: -log10 of the largest relative error at an unknown, "
-    "against the solution in extended precision; a percentage where not all are solved.",
+    "ours": "Correct digits of our worst solution of each kind: -log10 of the largest error of u at an unknown, "
+    "relative to the variation of u, against the solution in extended precision; a percentage where not all problems "
+    "are solved, or rightly called inaccurate or refused.",
     "rivals": "Percent of the problems claimed solved with a recomputed KKT residual of at most 1e-9, by load and by "
     "mesh.",
+    "estimates": "The accuracy that a solution states against its true error, of u and of the contact forces, all "
+    "routes and problems, thinned to one mark for each tenth of a decade; dashed, what is promised: at least "
+    "a tenth of the error, at most a thousand times it or four roundings.",
     "floor": "Errors of the family smooth, and of the family patch, which is round-off alone, by the route taken "
     "unasked; dotted, the unit round-off times the condition number of the stiffness matrix, continued by its power of "
     "h.",
@@ -52,13 +57,25 @@ def _read(path):
 
 
 def digits_by_cell(rows):
-    """(element, family, load) -> (digits of our worst solution, share solved)."""
+    """(element, family, load) -> (digits of our worst solution, share `answered`)."""
     found, ours = {}, [row for row in rows if row["solver"].startswith("ours")]
     for key in dict.fromkeys((row["element"], row["family"], row["load"]) for row in ours):
         own = [row for row in ours if (row["element"], row["family"], row["load"]) == key]
         worst = max((row["error"] for row in own if row["error"]), default=0.0)
-        found[key] = (-np.log10(max(worst, np.finfo(float).eps)), np.mean([_solved(row) for row in own]))
+        found[key] = (-np.log10(max(worst, np.finfo(float).eps)), np.mean([answered(row) for row in own]))
     return found
+
+
+def error_pairs(rows):
+    """For u and for the contact forces, the (true error, stated accuracy, whether called solved) that are positive."""
+    ours = [row for row in rows if row["solver"].startswith("ours/") and row["claimed"]]
+    names = {"u": ("error", "accuracy"), "contact forces": ("multiplier_error", "multiplier_accuracy")}
+    return {
+        title: [
+            (*(row[key] for key in keys), row["status"] == "solved") for row in ours if min(row[k] for k in keys) > 0
+        ]
+        for title, keys in names.items()
+    }
 
 
 def shares(rows, column):

@@ -8,7 +8,16 @@ from signorini.studies.stability_claims import claims
 from signorini.studies.stability_digits import digits
 from signorini.studies.stability_floor import EPS, crossings, growth
 from signorini.studies.stability_parts import title
-from signorini.studies.stability_proof import estimates, statuses
+from signorini.studies.stability_proof import (
+    ERROR,
+    INACCURATE_FROM,
+    NEEDLESS,
+    OVERESTIMATE,
+    REFUSED_FROM,
+    UNDERESTIMATE,
+    estimates,
+    statuses,
+)
 from signorini.studies.stability_success import SLOW, summary
 from signorini.studies.texts import Table, markdown_table, seconds, tex, tex_figure, tex_table
 
@@ -26,13 +35,15 @@ class Report:
         ``success`` and ``digits``: all rows; ``floor`` and ``extremes``: dicts of rows by piece.
     time_limit : float
         Of a rival on a problem, in seconds.
+    seeds : int
+        The first seed of every kind of problem; 0 where they are the fixed ones.
     """
 
-    def __init__(self, parts, time_limit):
+    def __init__(self, parts, time_limit, seeds=0):
         self.success, self.floor, self.extremes = parts["success"], parts["floor"], parts["extremes"]
-        self.time_limit = time_limit
+        self.time_limit, self.seeds = time_limit, seeds
         self.solvers = summary(self.success, time_limit)
-        self.statuses = statuses(self.success)
+        self.statuses, self.estimates = statuses(self.success), estimates(self.success)
         base = [row for row in parts["digits"] if row["variant"] == "auto"]
         self.digits = digits(base, [row for row in parts["digits"] if row["variant"] != "auto"])
         rows = [row for name, piece in self.floor.items() if "-" in name for row in piece]
@@ -51,6 +62,7 @@ class Report:
             "claims": self._claims(),
             "solvers": self._solvers(),
             "statuses": self._statuses(),
+            "estimates": self._estimates(),
             "digits": self._digits(),
             "crossings": self._crossings(),
         }
@@ -93,18 +105,45 @@ class Report:
     def _statuses(self):
         rows = []
         for row in self.statuses:
-            errors = [_power(row[key]) if row[key] else "--" for key in ("solved_error", "inaccurate_error")]
-            ratio = "--" if row["underestimate"] is None else f"{row['underestimate']:.2f}"
-            counts = (row["solved"], errors[0], row["wrong"], row["inaccurate"], errors[1], row["needed"], ratio)
-            rows.append((row["family"], row["element"], *counts))
-        header = ("meshes", "", "number", "error", "wrong", "number", "error", "needed", "error / estimate")
-        caption = (
-            "Statuses held against solutions in extended precision (80 bits, the matrix assembled in it), all routes: "
-            "how many are called solved or inaccurate, their largest relative error at an unknown, and how many "
-            "have an error above 1e-10, which makes solved wrong and inaccurate needed. Last: the largest error "
-            "relative to the accuracy that the solution states, among errors above 1e-12."
+            keys = ("solved_error", "solved_multiplier_error", "inaccurate_error")
+            u, force, other = (_power(row[key]) if row[key] else "--" for key in keys)
+            named = (row["solved"], u, force, row["wrong"], row["inaccurate"], other, row["needed"], row["refused"])
+            counts = (row["unneeded"], f"{row['wrong_side']:g}", f"{row['undecided']:g}", f"{row['needless']:g}")
+            rows.append((row["family"], row["element"], *named, *counts))
+        header = (
+            *("bodies", "", "number", "u", "force", "wrong", "number", "u", "needed", "number", "unneeded"),
+            *("wrong side", "undecided", "needlessly"),
         )
-        return Table(header, rows, caption, (("", 2), ("called solved", 3), ("called inaccurate", 3), ("", 1)))
+        groups = (("", 2), ("solved", 4), ("inaccurate", 3), ("refused", 1), ("", 1), ("contact unknowns", 3))
+        caption = (
+            "Statuses held against solutions in extended precision (80 bits), all routes. Solved: how many "
+            "are called so, their largest error of u relative to its variation, of the contact forces "
+            f"relative to the largest, and how many are wrong, by an error above {ERROR:g} or a contact "
+            "unknown on the wrong side. Inaccurate: how many, their largest error of u, and how many have an "
+            f"error above {ERROR:g}. Refused: how many. Unneeded: called inaccurate where double precision "
+            f"makes no error above {INACCURATE_FROM:g} likely, refused where none above {REFUSED_FROM:g}, or "
+            "with a residual above 1e-9. Contact unknowns of all answers: decided for the wrong side; called "
+            "undecided; and that though gap or force exceed what rounding does to them by a factor of "
+            f"{NEEDLESS:g}."
+        )
+        return Table(header, rows, caption, groups)
+
+    def _estimates(self):
+        rows = []
+        for row in self.estimates:
+            cells = [
+                "--" if row[f"{which}{name}"] is None else f"{row[f'{which}{name}']:.2g}"
+                for which in ("", "multiplier_")
+                for name in ("least", "median", "most", "missed")
+            ]
+            rows.append((row["family"], row["element"], row["answers"], *cells))
+        header = ("bodies", "", "answers", *("least", "median", "most", "missed") * 2)
+        caption = (
+            "The accuracy that a solution states, over its true error, of u and of the contact forces, all "
+            f"routes: least, median, most. Missed: below 1/{UNDERESTIMATE:g}, or above {OVERESTIMATE:g}. In "
+            "most and missed, an error below four roundings counts as so much."
+        )
+        return Table(header, rows, caption, (("", 3), ("u", 4), ("contact forces", 4)))
 
     def _digits(self):
         cells = {(row["element"], row["norm"], row["n"]): row["digits"] for row in self.digits}
@@ -151,11 +190,12 @@ class Report:
 
     def markdown(self, figures):
         """The page, with its pictures beside it."""
-        parts = ["# Stability", _INTRODUCTION]
+        parts = ["# Stability", self.answer(), _INTRODUCTION + self._seeds()]
         pictures = [f"![{caption}](stability_{name}.png)\n\n{caption}" for name, caption in figures.items()]
         tables = list(self.tables().values())
         parts += [markdown_table(tables[0]), markdown_table(tables[1]), *pictures[:2]]
-        parts += [markdown_table(table) for table in tables[2:]] + pictures[2:]
+        parts += [markdown_table(table) for table in tables[2:4]] + pictures[2:3]
+        parts += [markdown_table(table) for table in tables[4:]] + pictures[3:]
         return "\n\n".join(part.strip() for part in parts) + "\n"
 
     def tex(self, figures):
@@ -164,14 +204,44 @@ class Report:
             tex_figure(f"stability_{name}", tex(caption), f"stability-{name}") for name, caption in figures.items()
         ]
         tables = [tex_table(table, f"stability-{name}") for name, table in self.tables().items()]
-        return "\n".join([r"\section{Stability}\label{sec:stability}", "", tex(_INTRODUCTION), "", *tables, *floats])
+        texts = [part for text in (self.answer(), _INTRODUCTION + self._seeds()) for part in (tex(text), "")]
+        return "\n".join([r"\section{Stability}\label{sec:stability}", "", *texts, *tables, *floats])
+
+    def answer(self):
+        """What was found, in three sentences."""
+        keys = ("solutions", "solved", "wrong", "unneeded")
+        solves, solved, wrong, unneeded = (sum(row[key] for row in self.statuses) for key in keys)
+        problems = next(row["problems"] for row in self.solvers if row["solver"] == "ours")
+        missed = sum(row["missed"] + row["multiplier_missed"] for row in self.estimates)
+        broken = [row["claim"] for row in self.claims() if not row["met"]]
+        return (
+            f"Of {solves} solves of {problems} generated problems by all routes that apply, {solved} are "
+            f"called solved, {_none(wrong)} of them wrong in u, in a contact force or in the contact set; the "
+            f"other {solves - solved} are called inaccurate or refused, {_none(unneeded)} of them where "
+            "double precision could do better. The accuracy that a solution states falls short of the true "
+            f"error by more than a factor of {UNDERESTIMATE:g}, or exceeds it by more than {OVERESTIMATE:g}, "
+            f"{_none(missed, 'never')}{' times' if missed else ''}. "
+            + (f"Promises not kept: {'; '.join(broken)}." if broken else "All promises are kept.")
+        )
+
+    def _seeds(self):
+        if not self.seeds:
+            return " The seeds are fixed."
+        return f" The seeds are random: --config seeds={self.seeds} runs them again."
 
 
 _INTRODUCTION = (
-    "Success rates on generated problems with fixed seeds, ours on every route that applies and other people's solvers "
-    "on the same matrices; the digits of Table 5.1 that one can trust; where round-off ends accuracy; and extremes. "
-    "Every KKT residual is recomputed from the problem, whatever a solver claims."
+    "Success rates on generated problems, ours on every route that applies and other people's solvers on the "
+    "same matrices; the digits of Table 5.1 that one can trust; where round-off ends accuracy; and extremes. "
+    "Every KKT residual is recomputed from the problem, whatever a solver claims. Bodies are families of "
+    "meshes, and discs, layers and waves of stiff or soft material on them. The judge of u, contact forces "
+    "and contact sets is a solution in extended precision: it works by couplings and differences instead of "
+    "a matrix, finds the contact set itself, knows its own error, and counts no sign that does not exceed it."
 )
+
+
+def _none(count, word="none"):
+    return str(count or word)
 
 
 def _share(value):

@@ -179,7 +179,7 @@ def test_what_double_precision_cannot_is_told_from_what_it_can():
     flat = labelled(pressed_flat(8, 1e-8, seed=0), dict(zip(SIDES, BOUNDARIES[0], strict=True)))
     assert judge(discretize_on(flat, "CR", statement(obstacle=1))).limit > 1e-2
     constant = judge(discretize(statement(**DATA | {"dirichlet": 1e12, "obstacle": 1e12}), "P1", 8))
-    assert constant.limit > 1e-6 > 1e-12 > constant.multiplier_limit
+    assert constant.limit == constant.stored > 1e-6 > 1e-12 > constant.multiplier_limit
     graded = judge(small("P1", ["bottom"]))
     assert max(graded.limit, graded.multiplier_limit) < 1e-12
 
@@ -256,7 +256,7 @@ def rows(solver="ours", **values):
     base = {"family": "needles", "load": "white", "element": "CR", "solver": solver, "claimed": 1, "residual": 1e-16}
     base |= {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15}
     base |= {"multiplier_accuracy": 1e-15, "multiplier_error": 1e-15, "wrong_side": 0, "undecided": 0, "needless": 0}
-    return base | {"limit": 1e-15, "multiplier_limit": 1e-15} | values
+    return base | {"limit": 1e-15, "multiplier_limit": 1e-15, "stored": 1e-16} | values
 
 
 def refused(solver="ours/direct", **values):
@@ -307,6 +307,7 @@ def test_a_status_better_than_the_error_is_wrong():
         (rows(status="inaccurate", limit=1e-12), True),
         (rows(status="inaccurate", multiplier_limit=1e-12), True),
         (rows(status="inaccurate", limit=1e-12, residual=1e-8), False),
+        (rows(status="inaccurate", limit=1e-7, residual=1e-8, stored=1e-7), True),
         (rows(status="inaccurate", limit=np.nan), False),
         (refused(limit=1e-3), False),
         (refused(limit=0.1), True),

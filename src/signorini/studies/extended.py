@@ -119,8 +119,10 @@ class Judgement:
         vanishes in double precision.
     limit, multiplier_limit : float
         What rounding of all terms of the forces to double precision does to u and to the multiplier, as relative
-        errors; the first also what rounding of u itself does. No algorithm that is told no more than the entries of the
-        matrix can be expected to do better.
+        errors; the first is at least `stored`. No algorithm that is told no more than the entries of the matrix can be
+        expected to do better.
+    stored : float
+        What rounding of u itself to double precision does, relative to the variation.
     """
 
     shift: np.longdouble
@@ -134,6 +136,7 @@ class Judgement:
     multiplier_error: float
     limit: float
     multiplier_limit: float
+    stored: float
 
     @property
     def u(self):
@@ -242,6 +245,7 @@ class _Search:
         noise, rounding, doubled = _largest(found.noise), _largest(found.force_error), DOUBLE / EPS
         force = _largest(multiplier)
         force = force if force > doubled * rounding else acting
+        stored = DOUBLE * _ratio(size, variation)
         value = np.where(found.active, found.force, found.gap)
         bound = np.where(found.active, found.force_error, found.gap_error)
         return Judgement(
@@ -254,8 +258,9 @@ class _Search:
             acting=acting,
             error=_ratio(_SAFETY * noise + _largest(found.step), variation),
             multiplier_error=_ratio(rounding, force),
-            limit=max(doubled * _ratio(noise, variation), DOUBLE * _ratio(size, variation)),
+            limit=max(doubled * _ratio(noise, variation), stored),
             multiplier_limit=doubled * _ratio(rounding, _SAFETY * force),
+            stored=stored,
         )
 
 

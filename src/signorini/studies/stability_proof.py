@@ -20,6 +20,7 @@ NEEDLESS = 1e3  # by which a sign exceeds its error in double precision where it
 PROOF = (
     *("status", "refused", "accuracy", "multiplier_accuracy", "undecided"),
     *("error", "multiplier_error", "wrong_side", "needless", "limit", "multiplier_limit"),
+    "stored",
 )
 TRUSTED = 1e-3  # an error of the truth itself up to which it is one
 _WORDS = 160  # letters of a refusal that are kept
@@ -44,7 +45,7 @@ def proofs(problem):
         - against the solution in extended precision, ``error``, ``multiplier_error`` and ``wrong_side``, the number of
           contact dofs decided for the wrong side; ``needless``, the number of those undecided without need; the first
           three are not a number where even extended precision is too short;
-        - ``limit`` and ``multiplier_limit``, the errors that double precision makes likely; see `Judgement`.
+        - ``limit``, ``multiplier_limit`` and ``stored``, errors that double precision makes likely; see `Judgement`.
     """
     problem.A  # noqa: B018 (assembled before the clock starts, as for the rivals)
     rows, truth = [], None
@@ -85,9 +86,8 @@ def proof(problem, solution, refused, truth):
     -------
     dict
     """
-    nan = float("nan")
-    limits = (nan, nan) if truth is None else (truth.limit, truth.multiplier_limit)
-    found = dict(zip(("limit", "multiplier_limit"), limits, strict=True))
+    nan, limits = float("nan"), ("limit", "multiplier_limit", "stored")
+    found = {name: nan if truth is None else getattr(truth, name) for name in limits}
     if solution is None:
         words = {"status": "refused", "refused": refused[:_WORDS]}
         return found | words | {"claimed": False, "residual": np.inf, "iterations": 0}
@@ -111,11 +111,16 @@ def proof(problem, solution, refused, truth):
 
 
 def answered(row):
-    """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better."""
+    """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
+
+    An inaccurate solution's residual may be what rounding u to doubles makes of it.
+    """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
+    if row["status"] == "solved":
+        return bool(row["residual"] <= RESIDUAL)
     needed = max(row["limit"], row["multiplier_limit"]) > INACCURATE_FROM
-    return bool(row["residual"] <= RESIDUAL and (row["status"] == "solved" or needed))
+    return bool(needed and row["residual"] <= max(RESIDUAL, row["stored"]))
 
 
 def right(row):

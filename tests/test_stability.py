@@ -256,7 +256,17 @@ def rows(solver="ours", **values):
     base = {"family": "needles", "load": "white", "element": "CR", "solver": solver, "claimed": 1, "residual": 1e-16}
     base |= {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15}
     base |= {"multiplier_accuracy": 1e-15, "multiplier_error": 1e-15, "wrong_side": 0, "undecided": 0, "needless": 0}
-    return base | {"limit": 1e-15, "multiplier_limit": 1e-15, "stored": 1e-16} | values
+    return (
+        base
+        | {
+            "limit": 1e-15,
+            "multiplier_limit": 1e-15,
+            "floor": 1e-15,
+            "multiplier_floor": 1e-15,
+            "rounded_residual": 1e-16,
+        }
+        | values
+    )
 
 
 def refused(solver="ours/direct", **values):
@@ -307,7 +317,7 @@ def test_a_status_better_than_the_error_is_wrong():
         (rows(status="inaccurate", limit=1e-12), True),
         (rows(status="inaccurate", multiplier_limit=1e-12), True),
         (rows(status="inaccurate", limit=1e-12, residual=1e-8), False),
-        (rows(status="inaccurate", limit=1e-7, residual=1e-8, stored=1e-7), True),
+        (rows(status="inaccurate", limit=1e-7, residual=1e-8, rounded_residual=1e-8), True),
         (rows(status="inaccurate", limit=np.nan), False),
         (refused(limit=1e-3), False),
         (refused(limit=0.1), True),
@@ -328,8 +338,8 @@ def test_less_than_solved_is_right_only_where_double_precision_cannot(row, right
         (1.1e-9, 1e-12, False),
         (0.0, 0.0, True),
         (0.0, 1e-17, False),
-        (8e-13, 0.0, True),
-        (1e-12, 0.0, False),
+        (1e-12, 0.0, True),
+        (1.1e-12, 0.0, False),
         (1e-12, np.nan, False),
         (np.nan, 1e-12, False),
     ],
@@ -368,6 +378,8 @@ def test_a_solve_is_held_against_the_judge():
         assert row["error"] == pytest.approx(1e-6, rel=1e-6)
         assert row["multiplier_error"] == pytest.approx(1e-3, rel=1e-6)
         assert row["wrong_side"] == 1 - undecided.sum() == 1 - row["needless"]
+        assert row["multiplier_floor"] >= row["floor"] == 4 * np.finfo(float).eps
+        assert row["rounded_residual"] <= 1e-15
     row = stability_proof.proof(problem, None, "no digit: too stretched", truth)
     assert (row["claimed"], row["status"], row["refused"]) == (False, "refused", "no digit: too stretched")
 

@@ -147,10 +147,17 @@ class Judgement:
         """Largest error of u, relative to the variation."""
         return _ratio(_largest((u - self.shift) - self.displacement), self.variation)
 
+    def force(self, decided):
+        """What errors of contact forces are relative to: the largest at the dofs `decided`, or else `acting`."""
+        return np.max(self.multiplier, where=decided, initial=0) or self.acting
+
+    def rounding(self, decided):
+        """One rounding of the terms of contact forces to double precision, relative to `force`."""
+        return DOUBLE * _ratio(self.acting, self.force(decided))
+
     def multiplier_distance(self, multiplier, decided):
-        """Largest error of contact forces, relative to the largest at the dofs `decided`, or to `acting`."""
-        pressing = np.max(self.multiplier, where=decided, initial=0)
-        return _ratio(_largest(multiplier - self.multiplier), pressing or self.acting)
+        """Largest error of contact forces, relative to `force`."""
+        return _ratio(_largest(multiplier - self.multiplier), self.force(decided))
 
     def wrong_side(self, active, undecided):
         """Number of contact dofs on whose sides we and the judge are decided, and differ."""

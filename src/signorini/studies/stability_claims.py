@@ -40,7 +40,7 @@ def claims(success, statuses, digits, extremes):
         ),
         _number(
             "contact unknowns decided for the wrong side, in any answer",
-            sum(row["wrong_side"] for row in statuses),
+            int(sum(row["wrong_side"] for row in statuses)),
             0,
         ),
         *_estimates([row for row in ours if row["claimed"]]),

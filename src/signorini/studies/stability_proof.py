@@ -11,7 +11,7 @@ from signorini.studies.extended import DOUBLE, judge
 ERROR = 1e-10  # of u and of the multiplier, up to which a solution may be called solved
 RESIDUAL = 1e-9
 UNDERESTIMATE, OVERESTIMATE = 10.0, 1e3  # by which a stated accuracy may miss the error
-FLOOR = 4 * DOUBLE  # an error below that counts as so much: a few roundings
+FEW = 4  # roundings of what u and forces are summed from: a smaller error counts as so much
 # An estimate may be a thousand times the error, so from here on "inaccurate" may be due.
 INACCURATE_FROM = ERROR / OVERESTIMATE
 # An error that double precision makes likely, beyond which no digit is safe, and a solve may be refused.
@@ -19,12 +19,12 @@ REFUSED_FROM = 1e-2
 NEEDLESS = 1e3  # by which a sign exceeds its error in double precision where it is undecided without need
 PROOF = (
     *("status", "refused", "accuracy", "multiplier_accuracy", "undecided"),
-    *("error", "multiplier_error", "wrong_side", "needless", "limit", "multiplier_limit"),
-    "stored",
+    *("error", "multiplier_error", "wrong_side", "needless"),
+    *("limit", "multiplier_limit", "floor", "multiplier_floor", "rounded_residual"),
 )
 TRUSTED = 1e-3  # an error of the truth itself up to which it is one
 _WORDS = 160  # letters of a refusal that are kept
-_PAIRS = (("", "accuracy", "error"), ("multiplier_", "multiplier_accuracy", "multiplier_error"))
+_NAN = float("nan")
 
 
 def proofs(problem):
@@ -45,7 +45,8 @@ def proofs(problem):
         - against the solution in extended precision, ``error``, ``multiplier_error`` and ``wrong_side``, the number of
           contact dofs decided for the wrong side; ``needless``, the number of those undecided without need; the first
           three are not a number where even extended precision is too short;
-        - ``limit``, ``multiplier_limit`` and ``stored``, errors that double precision makes likely; see `Judgement`.
+        - of double precision, ``limit`` and ``multiplier_limit``, the errors that it makes likely, see `Judgement`;
+          ``floor`` and ``multiplier_floor``, `FEW` roundings; ``rounded_residual``, that of the truth rounded to it.
     """
     problem.A  # noqa: B018 (assembled before the clock starts, as for the rivals)
     rows, truth = [], None
@@ -86,8 +87,7 @@ def proof(problem, solution, refused, truth):
     -------
     dict
     """
-    nan, limits = float("nan"), ("limit", "multiplier_limit", "stored")
-    found = {name: nan if truth is None else getattr(truth, name) for name in limits}
+    found = _limits(problem, truth)
     if solution is None:
         words = {"status": "refused", "refused": refused[:_WORDS]}
         return found | words | {"claimed": False, "residual": np.inf, "iterations": 0}
@@ -101,26 +101,41 @@ def proof(problem, solution, refused, truth):
         "undecided": int(solution.undecided.sum()),
     }
     if truth is None or truth.error > TRUSTED:
-        return found | {"error": nan, "multiplier_error": nan, "wrong_side": nan, "needless": 0}
+        return found | dict.fromkeys(("error", "multiplier_error", "multiplier_floor", "wrong_side"), _NAN)
+    decided = solution.active & ~solution.undecided
     return found | {
         "error": truth.distance(solution.u),
-        "multiplier_error": truth.multiplier_distance(solution.multiplier, solution.active & ~solution.undecided),
+        "multiplier_error": truth.multiplier_distance(solution.multiplier, decided),
+        "multiplier_floor": FEW * truth.rounding(decided),
         "wrong_side": truth.wrong_side(solution.active, solution.undecided),
         "needless": truth.needless(solution.undecided, NEEDLESS),
+    }
+
+
+def _limits(problem, truth):
+    """What double precision makes likely; not a number where there is no truth."""
+    if truth is None:
+        return dict.fromkeys(("limit", "multiplier_limit", "floor", "rounded_residual"), _NAN) | {"needless": 0}
+    return {
+        "limit": truth.limit,
+        "multiplier_limit": truth.multiplier_limit,
+        "floor": FEW * max(DOUBLE, truth.stored),
+        "rounded_residual": kkt_residual(problem, truth.u.astype(float))[0],
+        "needless": 0,
     }
 
 
 def answered(row):
     """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
 
-    An inaccurate solution's residual may be what rounding u to doubles makes of it.
+    An inaccurate solution's residual may be what rounding to doubles makes of the truth's.
     """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
     if row["status"] == "solved":
         return bool(row["residual"] <= RESIDUAL)
     needed = max(row["limit"], row["multiplier_limit"]) > INACCURATE_FROM
-    return bool(needed and row["residual"] <= max(RESIDUAL, row["stored"]))
+    return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"]))
 
 
 def right(row):
@@ -130,8 +145,8 @@ def right(row):
 
 def estimated(row, which=""):
     """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand times the error."""
-    accuracy, error = row[f"{which}accuracy"], row[f"{which}error"]
-    return bool(error <= UNDERESTIMATE * accuracy and accuracy <= OVERESTIMATE * max(error, FLOOR))
+    accuracy, error, floor = (row[f"{which}{name}"] for name in ("accuracy", "error", "floor"))
+    return bool(error <= UNDERESTIMATE * accuracy and accuracy <= OVERESTIMATE * max(error, floor))
 
 
 def statuses(rows):
@@ -160,15 +175,15 @@ def estimates(rows):
     -------
     list of dict
         Per family and element, for u and, under the prefix ``multiplier_``, for the multiplier: ``median``, the median
-        of accuracy over error; ``least`` and ``most``, its extremes, an error below four roundings counting as so much
-        in the last; ``missed``, answers not `estimated`.
+        of accuracy over error; ``least`` and ``most``, its extremes, an error below the floor counting as so much in
+        the last; ``missed``, answers not `estimated`.
     """
     found = []
     for (family, element), own in _groups(rows).items():
         answers = [row for row in own if row["claimed"]]
         row = {"family": family, "element": element, "answers": len(answers)}
-        for which, *pair in _PAIRS:
-            row |= {f"{which}{name}": value for name, value in _ratios(answers, *pair).items()}
+        for which in ("", "multiplier_"):
+            row |= {f"{which}{name}": value for name, value in _ratios(answers, which).items()}
             row[f"{which}missed"] = sum(not estimated(answer, which) for answer in answers)
         found.append(row)
     return found
@@ -201,11 +216,13 @@ def _status(family, element, own):
     }
 
 
-def _ratios(answers, accuracy, error):
-    exact = [row[accuracy] / row[error] for row in answers if row[error] > 0]
-    floored = [row[accuracy] / max(row[error], FLOOR) for row in answers]
+def _ratios(answers, which):
+    stated, error, floor = (
+        np.array([row[f"{which}{name}"] for row in answers]) for name in ("accuracy", "error", "floor")
+    )
+    exact = stated[error > 0] / error[error > 0]
     return {
-        "median": float(np.median(exact)) if exact else None,
-        "least": min(exact, default=None),
-        "most": max(floored, default=None),
+        "median": float(np.median(exact)) if exact.size else None,
+        "least": float(exact.min()) if exact.size else None,
+        "most": float(np.max(stated / np.maximum(error, floor))) if answers else None,
     }

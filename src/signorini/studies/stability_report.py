@@ -112,7 +112,7 @@ class Report:
             rows.append((row["family"], row["element"], *named, *counts))
         header = (
             *("bodies", "", "number", "u", "force", "wrong", "number", "u", "needed", "number", "unneeded"),
-            *("wrong side", "undecided", "needlessly"),
+            *("wrong", "open", "needless"),
         )
         groups = (("", 2), ("solved", 4), ("inaccurate", 3), ("refused", 1), ("", 1), ("contact unknowns", 3))
         caption = (

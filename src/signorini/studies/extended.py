@@ -1,8 +1,7 @@
 """Solutions in extended precision (80 bits): the judge of solutions in double precision.
 
 The judge takes vertices, coefficient, load, obstacle and Dirichlet values as exact, and shares no arithmetic with the
-solvers. Couplings are formed anew from the vertices; of a `Grid`, from side lengths over numbers of cells. The matrix
-is never formed: what acts on a degree of freedom is the sum of couplings times differences, and the elimination keeps
+solvers. Couplings are formed anew (`couplings`). The matrix is never formed: what acts on a degree of freedom is the sum of couplings times differences, and the elimination keeps
 couplings too, so that neither stiff parts nor graded cells cost digits. The solution is the sum of two numbers at each
 degree of freedom, refined until its steps drown in round-off.
 
@@ -15,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
-from signorini.mesh.grid import Grid
+from signorini.studies.couplings import couplings
 from signorini.studies.elimination import EXTENDED, Elimination
 
 EPS = float(np.finfo(EXTENDED).eps)
@@ -26,72 +24,6 @@ _SAMPLES = 5
 _SAFETY = 4.0  # between the largest of so many samples and a bound
 _MOST_STEPS = 60
 _PATIENCE = 4  # exchanges of all wrong signs without gain before one at a time (Judice and Pires 1994)
-
-# The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its ends, of CR the others.
-_COUPLED = {"P1": ((0, 1), (1, 2), (2, 0)), "CR": ((1, 2), (2, 0), (0, 1))}
-_FACTOR = {"P1": 1, "CR": 4}
-
-
-class Couplings(NamedTuple):
-    """Terms w (u_i - u_j) of the forces, one for every facet of every triangle.
-
-    ``first`` and ``second`` are i and j, ``weight`` w, and ``rounding`` what w is summed from: eps times it is the
-    error of w. All have shape (3 nt,); the last two are longdouble, in the unit of the coefficient.
-    """
-
-    first: np.ndarray
-    second: np.ndarray
-    weight: np.ndarray
-    rounding: np.ndarray
-
-
-def couplings(mesh, element, coefficient=None):
-    """The couplings of the Dirichlet form.
-
-    With a and b the edges of a triangle from the facet's ends to the opposite vertex, P1 couples the ends by
-    w = a.b / (2 |a x b|), half the cotangent of the angle; CR couples the other two facets by 4 w.
-
-    Parameters
-    ----------
-    mesh : Grid or Triangulation
-    element : {"P1", "CR"}
-    coefficient : ndarray, shape (nt,), optional
-
-    Returns
-    -------
-    Couplings
-    """
-    edges = _edge_vectors(mesh)
-    crossing = edges[0, 0] * edges[1, 1], edges[0, 1] * edges[1, 0]
-    area = np.abs(crossing[0] - crossing[1])
-    flat = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
-    scale = EXTENDED(0.5 * _FACTOR[element]) / area * (1 if coefficient is None else coefficient.astype(EXTENDED))
-    dofs, found = find_element(element).triangle_dofs(mesh), []
-    for facet, (one, other) in enumerate(_COUPLED[element]):
-        along = edges[facet - 2] * edges[facet - 1]
-        weight = -scale * along.sum(axis=0)
-        found.append((dofs[one], dofs[other], weight, scale * np.abs(along).sum(axis=0) + flat * np.abs(weight)))
-    return Couplings(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
-
-
-def _edge_vectors(mesh):
-    """The edges 01, 12 and 20 of all triangles, longdouble, shape (3, 2, nt)."""
-    if isinstance(mesh, Grid):
-        spacing = np.array(mesh.size, dtype=EXTENDED) / (mesh.nx, mesh.ny)
-        corners = np.repeat(np.array(mesh.corners).transpose(1, 2, 0), mesh.nx * mesh.ny, axis=2) * spacing[:, None]
-    else:
-        corners = mesh.p.astype(EXTENDED)[:, mesh.t].transpose(1, 0, 2)
-    return np.roll(corners, -1, axis=0) - corners
-
-
-def extended_stiffness(mesh, element, coefficient=None):
-    """The stiffness matrix of `couplings`, scipy.sparse.csr_array of longdouble, shape (ndof, ndof)."""
-    from scipy.sparse import coo_array
-
-    first, second, weight, _ = couplings(mesh, element, coefficient)
-    size = find_element(element).size(mesh)
-    rows, columns = np.concatenate([first, second] * 2), np.concatenate([second, first, first, second])
-    return coo_array((np.concatenate([-weight, -weight, weight, weight]), (rows, columns)), shape=(size, size)).tocsr()
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,17 +42,17 @@ class Judgement:
         Where the constraint binds.
     margin : ndarray, shape (nc,)
         Gap or force of each contact degree of freedom in units of its own error bound; its sign is sure above 1.
-    variation : float
+    variation : longdouble
         max u - min u, or max |u| where u is constant.
-    acting : float
+    acting : longdouble
         The largest sum of |a_ij (u_i - u_j)| and |b_i| of a contact row.
-    error, multiplier_error : float
-        Error bounds of the judge's own; of the multiplier, relative to its largest entry, or to `acting` where that
-        vanishes in double precision.
-    limit, multiplier_limit : float
-        What rounding of all terms of the forces to double precision does to u and to the multiplier, as relative
-        errors; the first is at least `stored`. No algorithm that is told no more than the entries of the matrix can be
-        expected to do better.
+    error : float
+        Error bound of the judge's own, relative to the variation.
+    force_error : longdouble
+        The same of the contact forces, in their unit.
+    limit : float
+        What rounding of all terms of the forces to double precision does to u, and of u itself, relative to the
+        variation. No algorithm that is told no more than the entries of the matrix can be expected to do better.
     stored : float
         What rounding of u itself to double precision does, relative to the variation.
     """
@@ -130,12 +62,11 @@ class Judgement:
     multiplier: np.ndarray
     active: np.ndarray
     margin: np.ndarray
-    variation: float
-    acting: float
+    variation: np.longdouble
+    acting: np.longdouble
     error: float
-    multiplier_error: float
+    force_error: np.longdouble
     limit: float
-    multiplier_limit: float
     stored: float
 
     @property
@@ -154,6 +85,10 @@ class Judgement:
     def rounding(self, decided):
         """One rounding of the terms of contact forces to double precision, relative to `force`."""
         return DOUBLE * _ratio(self.acting, self.force(decided))
+
+    def multiplier_limit(self, decided):
+        """What rounding of all terms to double precision does to contact forces, relative to `force`."""
+        return DOUBLE / EPS / _SAFETY * _ratio(self.force_error, self.force(decided))
 
     def multiplier_distance(self, multiplier, decided):
         """Largest error of contact forces, relative to `force`."""
@@ -249,10 +184,7 @@ class _Search:
         multiplier = np.where(found.active, np.maximum(found.force, 0), 0)
         _, terms = self.body.forces(self.head, self.tail)
         acting = _largest((terms + np.abs(self.b))[self.problem.contact])
-        noise, rounding, doubled = _largest(found.noise), _largest(found.force_error), DOUBLE / EPS
-        force = _largest(multiplier)
-        force = force if force > doubled * rounding else acting
-        stored = DOUBLE * _ratio(size, variation)
+        noise, stored = _largest(found.noise), DOUBLE * _ratio(size, variation)
         value = np.where(found.active, found.force, found.gap)
         bound = np.where(found.active, found.force_error, found.gap_error)
         return Judgement(
@@ -264,9 +196,8 @@ class _Search:
             variation=variation,
             acting=acting,
             error=_ratio(_SAFETY * noise + _largest(found.step), variation),
-            multiplier_error=_ratio(rounding, force),
-            limit=max(doubled * _ratio(noise, variation), stored),
-            multiplier_limit=doubled * _ratio(rounding, _SAFETY * force),
+            force_error=_largest(found.force_error),
+            limit=max(DOUBLE / EPS * _ratio(noise, variation), stored),
             stored=stored,
         )
 

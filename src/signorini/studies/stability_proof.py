@@ -17,10 +17,11 @@ INACCURATE_FROM = ERROR / OVERESTIMATE
 # An error that double precision makes likely, beyond which no digit is safe, and a solve may be refused.
 REFUSED_FROM = 1e-2
 NEEDLESS = 1e3  # by which a sign exceeds its error in double precision where it is undecided without need
+_LIMITS = ("limit", "multiplier_limit", "floor", "multiplier_floor", "rounded_residual")
 PROOF = (
     *("status", "refused", "accuracy", "multiplier_accuracy", "undecided"),
     *("error", "multiplier_error", "wrong_side", "needless"),
-    *("limit", "multiplier_limit", "floor", "multiplier_floor", "rounded_residual"),
+    *_LIMITS,
 )
 TRUSTED = 1e-3  # an error of the truth itself up to which it is one
 _WORDS = 160  # letters of a refusal that are kept
@@ -87,7 +88,8 @@ def proof(problem, solution, refused, truth):
     -------
     dict
     """
-    found = _limits(problem, truth)
+    decided = None if solution is None else solution.active & ~solution.undecided
+    found = _limits(problem, truth, decided)
     if solution is None:
         words = {"status": "refused", "refused": refused[:_WORDS]}
         return found | words | {"claimed": False, "residual": np.inf, "iterations": 0}
@@ -101,40 +103,43 @@ def proof(problem, solution, refused, truth):
         "undecided": int(solution.undecided.sum()),
     }
     if truth is None or truth.error > TRUSTED:
-        return found | dict.fromkeys(("error", "multiplier_error", "multiplier_floor", "wrong_side"), _NAN)
-    decided = solution.active & ~solution.undecided
+        return found | dict.fromkeys(("error", "multiplier_error", "wrong_side"), _NAN)
     return found | {
         "error": truth.distance(solution.u),
         "multiplier_error": truth.multiplier_distance(solution.multiplier, decided),
-        "multiplier_floor": FEW * truth.rounding(decided),
         "wrong_side": truth.wrong_side(solution.active, solution.undecided),
         "needless": truth.needless(solution.undecided, NEEDLESS),
     }
 
 
-def _limits(problem, truth):
+def _limits(problem, truth, decided):
     """What double precision makes likely; not a number where there is no truth."""
     if truth is None:
-        return dict.fromkeys(("limit", "multiplier_limit", "floor", "rounded_residual"), _NAN) | {"needless": 0}
-    return {
-        "limit": truth.limit,
-        "multiplier_limit": truth.multiplier_limit,
-        "floor": FEW * max(DOUBLE, truth.stored),
-        "rounded_residual": kkt_residual(problem, truth.u.astype(float))[0],
-        "needless": 0,
-    }
+        return dict.fromkeys(_LIMITS, _NAN) | {"needless": 0}
+    decided = truth.active if decided is None else decided
+    found = (
+        truth.limit,
+        truth.multiplier_limit(decided),
+        FEW * max(DOUBLE, truth.stored),
+        FEW * truth.rounding(decided),
+        kkt_residual(problem, truth.u.astype(float))[0],
+    )
+    return dict(zip(_LIMITS, found, strict=True)) | {"needless": 0}
 
 
 def answered(row):
     """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
 
-    An inaccurate solution's residual may be what rounding to doubles makes of the truth's.
+    Of u and of the contact forces, those alone may be inaccurate that are so in double precision; and the residual may
+    be what rounding to doubles makes of the truth's.
     """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
     if row["status"] == "solved":
         return bool(row["residual"] <= RESIDUAL)
-    needed = max(row["limit"], row["multiplier_limit"]) > INACCURATE_FROM
+    needed = all(
+        row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM for which in ("", "multiplier_")
+    )
     return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"]))
 
 

@@ -17,10 +17,11 @@ from signorini.mesh.labels import labelled
 from signorini.problem import discretize, discretize_on
 from signorini.solvers import METHODS, solve
 from signorini.studies import stability_digits, stability_floor, stability_proof, stability_success
+from signorini.studies.bodies import BOUNDARIES, FAMILIES, pressed_flat
 from signorini.studies.couplings import extended_stiffness
 from signorini.studies.elimination import Elimination
 from signorini.studies.extended import EPS, judge
-from signorini.studies.problems import BOUNDARIES, FAMILIES, LOADS, instance, pressed_flat
+from signorini.studies.problems import LOADS, instance
 from signorini.studies.rivals.timed import Arena
 from signorini.studies.stability_claims import claims
 from signorini.studies.stability_parts import digits_by_cell, error_pairs, shares, title, titles

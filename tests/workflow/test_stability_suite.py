@@ -5,7 +5,7 @@ import csv
 import pytest
 from project import LATEX, Project
 
-from signorini.studies.problems import FAMILIES
+from signorini.studies.bodies import FAMILIES
 from signorini.typeset import typeset
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")

@@ -1,9 +1,9 @@
 """Solutions in extended precision (80 bits): the judge of solutions in double precision.
 
 The judge takes vertices, coefficient, load, obstacle and Dirichlet values as exact, and shares no arithmetic with the
-solvers. Couplings are formed anew (`couplings`). The matrix is never formed: what acts on a degree of freedom is the sum of couplings times differences, and the elimination keeps
-couplings too, so that neither stiff parts nor graded cells cost digits. The solution is the sum of two numbers at each
-degree of freedom, refined until its steps drown in round-off.
+solvers. It never forms the matrix: what acts on a degree of freedom is the sum of couplings times differences, and the
+elimination keeps couplings too, so that neither stiff parts nor graded cells cost digits. The solution is the sum of
+two numbers at each degree of freedom, refined until its steps drown in round-off.
 
 The judge knows its own error: what rounding of all terms of the forces, by random signs, does to gaps and forces. A
 sign counts only beyond that, and the contact set is exchanged until no sign that counts is wrong.

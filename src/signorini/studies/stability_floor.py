@@ -14,7 +14,7 @@ from signorini.mesh.labels import labelled
 from signorini.problem import discretize, discretize_on
 from signorini.solvers import solve
 from signorini.statement import ProblemStatement
-from signorini.studies.problems import pressed_flat
+from signorini.studies.bodies import pressed_flat
 
 EPS = np.finfo(float).eps
 FAMILIES = ("smooth", "patch")

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini.storage import read_csv
-from signorini.studies.problems import FAMILIES
+from signorini.studies.bodies import FAMILIES
 from signorini.studies.rivals import RIVALS
 from signorini.studies.stability_proof import answered
 from signorini.studies.stability_success import TOLERANCES

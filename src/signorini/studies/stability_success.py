@@ -26,7 +26,7 @@ def measure(family, seeds, few, time_limit):
     Parameters
     ----------
     family : str
-        Of `problems.FAMILIES`.
+        Of `bodies.FAMILIES`.
     seeds : sequence of int
         Of the problems of every kind of load and element.
     few : int

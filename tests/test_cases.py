@@ -14,10 +14,11 @@ from signorini.elements import ELEMENTS
 from signorini.problem import discretize
 from signorini.solvers import METHODS, solve
 from signorini.studies import stability_extremes as extremes
-from signorini.studies.problems import FAMILIES
+from signorini.studies.bodies import FAMILIES
 from signorini.studies.scenes import problems
 from signorini.studies.stability_floor import stretching
-from signorini.studies.stability_success import measure, statuses
+from signorini.studies.stability_proof import answered, estimated, statuses
+from signorini.studies.stability_success import HARD, measure
 
 HERE = Path(__file__).parent
 ELSEWHERE = {
@@ -85,13 +86,20 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_case_3_success_rate(family, monkeypatch):
-    """72 problems for each of 7 families of meshes: all solved to 1e-9, none claimed in error, no status wrong."""
+    """84 problems for each of 11 families: all solved to 1e-9, none claimed in error, no status or estimate wrong.
+
+    On bodies graded, or stiff in parts, and next to large constants, less than solved where double precision can no more.
+    """
     monkeypatch.setattr("signorini.studies.stability_success.RIVALS", {})
-    rows = measure(family, seeds=6, few=0, time_limit=1.0)
-    assert sum(row["solver"] == "ours" for row in rows) == 72
-    assert all(row["claimed"] and row["residual"] <= 1e-9 for row in rows)
-    assert not any(row["wrong"] for row in statuses(rows))
-    assert all(row["error"] <= max(4 * row["accuracy"], 1e-12) for row in rows)
+    rows = measure(family, seeds=range(6), few=0, time_limit=1.0)
+    assert sum(row["solver"] == "ours" for row in rows) == 84
+    assert all(map(answered, rows))
+    ordinary = [row for row in rows if not {family, row["load"]} & set(HARD)]
+    assert all(row["claimed"] and row["residual"] <= 1e-9 for row in ordinary)
+    assert all(row["error"] <= max(4 * row["accuracy"], 1e-12) for row in ordinary)
+    assert not any(row["wrong"] or row["wrong_side"] for row in statuses(rows))
+    answers = [row for row in rows if row["claimed"]]
+    assert all(estimated(row) and estimated(row, "multiplier_") for row in answers)
 
 
 @settings(max_examples=100, deadline=None, derandomize=True)

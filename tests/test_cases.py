@@ -88,7 +88,7 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
 def test_case_3_success_rate(family, monkeypatch):
     """84 problems for each of 11 families: all solved to 1e-9, none claimed in error, no status or estimate wrong.
 
-    On bodies graded, or stiff in parts, and next to large constants, less than solved where double precision can no more.
+    Bodies graded or stiff in parts, and large constants, may be less than solved where double precision can no more.
     """
     monkeypatch.setattr("signorini.studies.stability_success.RIVALS", {})
     rows = measure(family, seeds=range(6), few=0, time_limit=1.0)

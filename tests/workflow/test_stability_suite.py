@@ -1,6 +1,8 @@
 """The stability suite, quick: from a clean checkout to pages that are readable, all its promises kept."""
 
 import csv
+import re
+from datetime import date
 
 import pytest
 from project import LATEX, Project
@@ -40,6 +42,39 @@ def test_the_page_shows_every_table_and_picture(suite):
     assert all(f"](stability_{name}.png)" in page for name in FIGURES)
     assert all(f"| {family} |" in page for family in FAMILIES)
     assert "| NO |" not in page
+
+
+def test_the_page_begins_with_its_answer(suite):
+    first = (suite / "stability.md").read_text(encoding="utf-8").split("\n\n")[1]
+    assert re.match(r"Of \d+ solves of 154 generated problems ", first)
+    assert first.endswith("All promises are kept.")
+    assert len(re.findall(r"\.(?: |$)", first)) == 3
+
+
+def test_estimates_and_statuses_are_those_of_the_solves(suite):
+    solves = [row for path in (suite / "success").iterdir() for row in rows(path) if row["solver"].startswith("ours/")]
+    assert sum(int(row["solutions"]) for row in rows(suite / "statuses.csv")) == len(solves)
+    answers = sum(row["claimed"] == "1" for row in solves)
+    assert sum(int(row["answers"]) for row in rows(suite / "estimates.csv")) == answers
+
+
+@pytest.mark.parametrize(
+    ("seeds", "first"), [("fixed", "0"), ("20261125", "20261125000"), ("random", f"{date.today():%Y%m%d}000")]
+)
+def test_seeds_are_fixed_or_those_of_a_day_in_a_folder_of_their_own(tmp_path, seeds, first):
+    asked = ("--config", "quick=true", f"seeds={seeds}", "--", "stability")
+    text = Project.fresh(tmp_path / "project").build("-n", "-p", "--quiet", "host", *asked).text
+    day = "" if seeds == "fixed" else f"-{first.removesuffix('000')}"
+    assert f"--family needles --seeds {first} 1 " in text
+    assert f"results/quick/stability{day}/success/needles.csv" in text
+    assert ("results/quick/stability/" in text) == (seeds == "fixed")
+    assert (f"seeds: {first.removesuffix('000')};" in text) == (seeds == "random")
+
+
+def test_other_seeds_are_refused(tmp_path):
+    run = Project.fresh(tmp_path / "project").run("-n", "--config", "seeds=sometimes", "--", "stability")
+    (error,) = run.errors
+    assert error.endswith('seeds: "sometimes" is not valid; expected fixed, random or a whole number')
 
 
 @pytest.mark.skipif(not LATEX, reason="needs latexmk and pdflatex")

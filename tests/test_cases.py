@@ -86,13 +86,14 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_case_3_success_rate(family, monkeypatch):
-    """84 problems for each of 11 families: all solved to 1e-9, none claimed in error, no status or estimate wrong.
+    """84 or 42 problems for each of 11 families: all solved to 1e-9, none claimed in error, no status or estimate wrong.
 
     Bodies graded or stiff in parts, and large constants, may be less than solved where double precision can no more.
     """
     monkeypatch.setattr("signorini.studies.stability_success.RIVALS", {})
-    rows = measure(family, seeds=range(6), few=0, time_limit=1.0)
-    assert sum(row["solver"] == "ours" for row in rows) == 84
+    seeds = range(3 if family in HARD else 6)
+    rows = measure(family, seeds, few=0, time_limit=1.0)
+    assert sum(row["solver"] == "ours" for row in rows) == 14 * len(seeds)
     assert all(map(answered, rows))
     ordinary = [row for row in rows if not {family, row["load"]} & set(HARD)]
     assert all(row["claimed"] and row["residual"] <= 1e-9 for row in ordinary)

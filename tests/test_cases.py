@@ -86,7 +86,7 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_case_3_success_rate(family, monkeypatch):
-    """84 or 42 problems for each of 11 families: all solved to 1e-9, none claimed in error, no status or estimate wrong.
+    """84 or 42 problems for each of 11 families: all solved to 1e-9, no claim, status or estimate in error.
 
     Bodies graded or stiff in parts, and large constants, may be less than solved where double precision can no more.
     """

@@ -29,12 +29,12 @@ def test_case_09_a_patch_of_aspect_one_hundredth_is_solved(element, size):
 
 
 @elements
-def test_case_09_a_tall_patch_of_aspect_one_millionth_is_inaccurate(element):
-    """The residual does not show it."""
+def test_case_09_a_tall_patch_of_aspect_one_millionth_is_as_accurate_as_it_says(element):
+    """Its matrix loses ten digits to rounding; with residuals by differences the solution loses none of them."""
     solution, error = contact_patch(element, (1e-6, 1.0))
-    assert error > 1e-10
-    assert solution.residual < 1e-14
-    assert solution.status == "inaccurate"
+    assert error <= 10 * solution.accuracy
+    assert error < 1e-13
+    assert solution.status == "solved"
 
 
 @elements

@@ -26,8 +26,13 @@ def scene(name):
 EXACT = [name for name in NAMES if scene(name).truth["kind"] == "exact"]
 
 
+_PROOF = (
+    "u", "multiplier", "active", "residual", "accuracy", "multiplier_accuracy", "undecided", "status",
+)  # fmt: skip
+
+
 def stored(problem, solution, n, h):
-    parts = {key: getattr(solution, key) for key in ("u", "multiplier", "active", "residual", "accuracy", "status")}
+    parts = {key: getattr(solution, key) for key in _PROOF}
     return StoredSolution(
         problem.element, n, h, problem.free.size, contact=problem.contact, lower=problem.lower,
         iterations=solution.iterations, method=solution.method, **parts,

@@ -8,6 +8,8 @@ import numpy as np
 
 from signorini.blocks import blocks
 
+_EPS = np.finfo(float).eps
+
 
 def assemble_stiffness(mesh, element, coefficient=None):
     """Stiffness matrix of the (broken) Dirichlet form.
@@ -25,6 +27,31 @@ def assemble_stiffness(mesh, element, coefficient=None):
         Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not stored.
     """
     return _assembled(mesh, element, facet_couplings(mesh, coefficient))
+
+
+def stiffness_errors(mesh, element, coefficient=None):
+    """What rounding may change in the off-diagonal entries of `assemble_stiffness`, beyond their last bits.
+
+    A coupling is a scalar product over a cross product of edges. On needles that lie across the axes both cancel, and
+    keep only the digits that their terms leave them.
+
+    Returns
+    -------
+    scipy.sparse.csr_array, shape (ndof, ndof)
+        Bounds as off-diagonal entries; rows sum to zero.
+    """
+    errors = np.empty((3, mesh.number_of_triangles))
+    for cells in blocks(mesh.number_of_triangles):
+        edges = mesh.edge_vectors(cells)
+        x, y = edges[:, 0], edges[:, 1]
+        area = np.abs(x[0] * y[1] - y[0] * x[1])
+        for facet in range(3):
+            one, other = facet - 2, facet - 1
+            dot = x[one] * x[other] + y[one] * y[other]
+            terms = np.abs(x[one] * x[other]) + np.abs(y[one] * y[other])
+            crossed = np.abs(x[one] * y[other]) + np.abs(y[one] * x[other])
+            errors[facet, cells] = _EPS * (terms + np.abs(dot) * (crossed / area)) / area
+    return _assembled(mesh, element, errors if coefficient is None else errors * coefficient)
 
 
 def _assembled(mesh, element, couplings):

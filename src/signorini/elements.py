@@ -46,6 +46,10 @@ class _P1(Element):
         """Degrees of freedom on the closed part `label` of the boundary, increasing."""
         return mesh.boundary_vertices(label)
 
+    def boundary_lengths(self, mesh, facets, ends, lengths):
+        """What length of some boundary facets each degree of freedom stands for, shape (ndof,)."""
+        return np.bincount(np.ravel(ends), np.tile(0.5 * lengths, 2), minlength=self.size(mesh))
+
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs))."""
         return mesh.points(dofs)
@@ -73,6 +77,10 @@ class _CR(Element):
     def boundary_dofs(self, mesh, label):
         """Degrees of freedom on the part `label` of the boundary, increasing."""
         return mesh.boundary_facets(label)
+
+    def boundary_lengths(self, mesh, facets, ends, lengths):
+        """What length of some boundary facets each degree of freedom stands for, shape (ndof,)."""
+        return np.bincount(facets, lengths, minlength=self.size(mesh))
 
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs)): midpoints of facets."""

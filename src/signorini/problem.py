@@ -11,7 +11,7 @@ from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.load import assemble_load
 from signorini.mesh.grid import Grid
-from signorini.stencil import apply_stiffness
+from signorini.stencil import apply_stiffness, contact_fluxes
 
 _ROUNDING = 1e-10
 _COARSE = 2**15
@@ -72,6 +72,48 @@ class Problem:
         if self.grid is not None:
             return apply_stiffness(self.grid, self.element, u)
         return self.A @ u
+
+    @property
+    def contact_points(self):
+        """Where the contact dofs are, shape (2, nc), unit of length: vertices for P1, midpoints of facets for CR."""
+        return find_element(self.element).nodes(self.mesh, self.contact)
+
+    def contact_fluxes(self, u):
+        """What flows into the contact dofs when the dofs are `u`.
+
+        Each is summed from differences of u, so that no entry of A hides it, however large.
+
+        Parameters
+        ----------
+        u : ndarray, shape (ndof,)
+
+        Returns
+        -------
+        force, fluxes, sizes : ndarray, shape (nc,)
+            (A u) at the contact dofs, the sum of the sizes of its differences, and (|A| |u|) there, what rounding of u
+            is relative to; unit of the load.
+        """
+        from signorini.solvers.residual import residual_and_fluxes
+
+        if not self.contact.size:
+            return np.zeros((3, 0))
+        if self.grid is not None:
+            return contact_fluxes(self.grid, self.element, u, self.contact)
+        rows, nothing = self.A[self.contact], np.zeros(self.contact.size)
+        less, fluxes = residual_and_fluxes(rows, nothing, u, self.contact)
+        return -less, fluxes, abs(rows) @ np.abs(u)
+
+    @cached_property
+    def contact_lengths(self):
+        """The length of the contact part that each contact dof stands for, shape (nc,), unit of length.
+
+        For CR that of its facet, for P1 half of each contact facet that meets there.
+        """
+        facets = self.mesh.boundary_facets("contact")
+        ends = self.mesh.facet_ends(facets)
+        start, end = (self.mesh.points(vertices) for vertices in ends)
+        lengths = np.hypot(*(end - start))
+        return find_element(self.element).boundary_lengths(self.mesh, facets, ends, lengths)[self.contact]
 
 
 def discretize(scene, element, n):

@@ -26,6 +26,8 @@ class StoredSolution:
     lower: np.ndarray
     residual: float
     accuracy: float
+    multiplier_accuracy: float
+    undecided: np.ndarray
     status: str
     iterations: int
     method: str
@@ -47,6 +49,8 @@ def write_solution(path, problem, solution, n, h):
         lower=problem.lower,
         residual=solution.residual,
         accuracy=solution.accuracy,
+        multiplier_accuracy=solution.multiplier_accuracy,
+        undecided=solution.undecided,
         status=solution.status,
         iterations=solution.iterations,
         method=solution.method,

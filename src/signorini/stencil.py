@@ -74,3 +74,59 @@ def _halved_ends(size):
 
 _STENCILS = {"P1": _add_p1, "CR": _add_cr}
 _DIAGONALS = {"P1": _diagonal_p1, "CR": _diagonal_cr}
+
+
+def contact_fluxes(grid, element, u, contact):
+    """What flows into contact dofs, as `solvers.residual` sums it.
+
+    Parameters
+    ----------
+    grid : Grid
+    element : {"P1", "CR"}
+    u : ndarray, shape (ndof,)
+    contact : ndarray of int, shape (nc,)
+        Dofs on the contact part, increasing.
+
+    Returns
+    -------
+    force, fluxes, sizes : ndarray, shape (nc,)
+        (A u) there, the sum of the sizes of its differences, and (|A| |u|) there; unit of u.
+    """
+    hx, hy = grid.spacing
+    return _CONTACT[element](grid, hy / hx, hx / hy, u, contact)
+
+
+def _contact_p1(grid, kx, ky, u, contact):
+    j, i = np.divmod(contact, grid.nx + 1)
+    on_row, on_column = np.isin(j, (0, grid.ny)), np.isin(i, (0, grid.nx))
+    along, across = kx * np.where(on_row, 0.5, 1.0), ky * np.where(on_column, 0.5, 1.0)
+    force, fluxes, sizes = np.zeros((3, contact.size))
+    for step, inside, k in (
+        (-1, i > 0, along),
+        (1, i < grid.nx, along),
+        (-grid.nx - 1, j > 0, across),
+        (grid.nx + 1, j < grid.ny, across),
+    ):
+        own, other = u[contact[inside]], u[contact[inside] + step]
+        flux = k[inside] * (own - other)
+        force[inside] += flux
+        fluxes[inside] += np.abs(flux)
+        sizes[inside] += k[inside] * (np.abs(own) + np.abs(other))
+    return force, fluxes, sizes
+
+
+def _contact_cr(grid, kx, ky, u, contact):
+    """An edge along an axis couples with the diagonal edge of its triangle alone, the second in `t2f`."""
+    behind = grid.triangles_at("contact").t2f
+    weights = (ky, kx) if grid.diagonal == "falling" else (kx, ky)
+    force, sizes = np.zeros((2, contact.size))
+    for leg, k in zip((0, 2), weights, strict=True):
+        at = np.minimum(np.searchsorted(contact, behind[leg]), contact.size - 1)
+        found = contact[at] == behind[leg]
+        own, other = u[behind[leg][found]], u[behind[1][found]]
+        force[at[found]] = 2.0 * k * (own - other)
+        sizes[at[found]] = 2.0 * k * (np.abs(own) + np.abs(other))
+    return force, np.abs(force), sizes
+
+
+_CONTACT = {"P1": _contact_p1, "CR": _contact_cr}

@@ -9,11 +9,18 @@ Buzbee, Golub and Nielson, On direct methods for solving Poisson's equations, SI
 
 import numpy as np
 
-from signorini.solvers.contact import solve_contact
+from signorini.exceptions import SolverError
+from signorini.solvers.contact import Exchange, solve_contact
 from signorini.solvers.count import count
+from signorini.solvers.found import Errors, proved, touching, wrong_signs
+from signorini.solvers.residual import EPS
 from signorini.solvers.rows import Edges, Vertices, strip_of
+from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
 from signorini.stencil import apply_stiffness
+
+_MAX_STEPS = 100
+_SAFETY = 8.0  # of a bound over the last correction
 
 
 def obstruction(problem):
@@ -39,12 +46,8 @@ def solve_fourier(problem, guess=None):
 
     Returns
     -------
-    u : ndarray, shape (ndof,)
-    active : ndarray of bool, shape (nc,)
-    iterations : int
-        Active-set steps.
-    accuracy : float
-        Zero: no matrix entry is rounded, and stretched cells cost no digits.
+    Found
+        No matrix entry is rounded and no pivot cancels, so that the last correction is as large as any error left.
 
     Raises
     ------
@@ -56,10 +59,40 @@ def solve_fourier(problem, guess=None):
     u = _displacement(problem, route, _shifted_load(problem), line.settle)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] += problem.lower
+    rule, closed = Exchange(), False
+    for _ in range(_MAX_STEPS):
+        before = line.force
+        correction = _displacement(problem, route, _residual(problem, u), line.hold)
+        u += correction
+        gap = u[problem.contact] - problem.lower
+        errors = _errors(problem, u, largest(correction), largest(line.force - before), line.stiffness)
+        wrong = wrong_signs(line.active, gap, line.force, errors)
+        near = touching(line.active, gap, errors, np.ptp(u))
+        if not wrong.any() and (closed or not near.any()):
+            return proved(u, line.active, line.iterations, gap, line.force, errors)
+        if wrong.any():
+            line.exchange(rule.choose(line.active, wrong, np.where(line.active, line.force, gap)))
+        else:
+            line.active, closed = line.active | near, True
+        u[problem.contact[line.active]] = problem.lower[line.active]
+    raise SolverError(f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best")
+
+
+def _residual(problem, u):
     count(products=1)
     rest = apply_stiffness(problem.grid, problem.element, u)
-    u += _displacement(problem, route, np.subtract(problem.b, rest, out=rest), line.hold)
-    return u, line.active, line.iterations, 0.0
+    return np.subtract(problem.b, rest, out=rest)
+
+
+def _errors(problem, u, correction, change, stiffness):
+    """Errors of u and of the forces, by their last changes."""
+    _, fluxes, _ = problem.contact_fluxes(u)
+    acting = np.max(fluxes + np.abs(problem.b[problem.contact]), initial=0.0)
+    size = max(largest(u), largest(problem.lower))
+    gap, force = _SAFETY * max(correction, EPS * size), _SAFETY * max(change, EPS * acting)
+    shape = problem.contact.shape
+    gaps, forces = np.full(shape, gap), np.full(shape, force)
+    return Errors(correction, max(change, EPS * acting), gaps, forces, forces, stiffness, acting)
 
 
 class _Line:
@@ -67,12 +100,14 @@ class _Line:
 
     def __init__(self, guess, singular):
         self.guess, self.singular = guess, singular
-        self.active, self.iterations = np.zeros(0, dtype=bool), 0
+        self.active, self.force, self.stiffness = np.zeros(0, dtype=bool), np.zeros(0), np.zeros(0)
+        self.iterations = 0
 
     def settle(self, operator, q):
         """The gap under the condensed load q, shape (nc,)."""
         result = solve_contact(operator, q, guess=self.guess, singular=self.singular)
         self.active, self.iterations = result.active, result.iterations
+        self.force, self.stiffness = self._force(operator, result.w, q), operator.diagonal()
         return result.w
 
     def hold(self, operator, q):
@@ -80,7 +115,17 @@ class _Line:
         w, free = np.zeros(q.size), ~self.active
         if free.any():
             w[free] = operator.solve_free(free, q[free])
+        self.force = self._force(operator, w, q)
         return w
+
+    def _force(self, operator, w, q):
+        """The contact forces: the load condensed to a dof of the contact set is what presses on it."""
+        return np.where(self.active, operator.apply(w) - q, 0.0)
+
+    def exchange(self, dofs):
+        """Let some dofs change sides."""
+        self.active[dofs] ^= True
+        self.iterations += 1
 
 
 def _displacement(problem, route, load, settle):

@@ -6,7 +6,7 @@ follow the large entries of the matrix (Ruge & Stüben 1987, by PyAMG). After Br
 Verfürth, SIAM J. Numer. Anal. 27 (1990), for the nonconforming element.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,9 +15,12 @@ from signorini.assembly import assemble_stiffness
 from signorini.blocks import blocks
 from signorini.elements import ELEMENTS
 from signorini.exceptions import MeshError
+from signorini.solvers.residual import residual
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
-_STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+_EXACT = 1e6  # range of the diagonal beyond which products are taken by differences
+_JUMP = 30.0  # of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow
 HALF = 0.5 - 1e-9
 
 
@@ -30,10 +33,22 @@ class Level:
     A : scipy.sparse.csr_array, shape (n, n)
     P : scipy.sparse.csr_array, shape (n, m), optional
         Prolongation; None on the coarsest level.
+    robust : bool
+        Whether levels below are to follow A with the held unknowns eliminated (`Eliminated`), since held ones and stiff
+        or stretched neighbours cannot share a coarse unknown.
     """
 
     A: object
     P: object = None
+    robust: bool = False
+
+    @cached_property
+    def _exact(self):
+        return self.robust and self.diagonal.max() > _EXACT * self.diagonal.min()
+
+    def product(self, x):
+        """A x; from differences of x where entries of A differ by many powers of ten."""
+        return -residual(self.A, np.zeros_like(x), x) if self._exact else self.A @ x
 
     @cached_property
     def R(self):
@@ -59,23 +74,35 @@ def build_hierarchy(problem):
         If the problem's mesh is not the refinement of the mesh it names as coarser.
     """
     levels, mesh, A, k = [], problem.mesh, problem.A, problem.coefficient
-    if not is_nested(mesh):
-        return _algebraic(A)
+    robust = False
+    if stretch_of(mesh) > STRETCHED:
+        return _algebraic(A, robust=True)
     if problem.element == "CR" and A.shape[0] > _SMALL:
         levels.append(Level(A, _means(mesh.facets, mesh.number_of_vertices)))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
     while A.shape[0] > _SMALL and (coarser := mesh.coarser()) is not None:
         parents = mesh.vertex_parents()
         _check_nested(mesh, coarser, parents)
+        if k is not None:
+            family = mesh.children(k[None])[:, 0]
+            robust = robust or bool(np.any(family.max(axis=0) > _JUMP * family.min(axis=0)))
+            k = family.mean(axis=0)
         levels.append(Level(A, _means(parents, coarser.number_of_vertices)))
-        k = None if k is None else mesh.children(k[None]).mean(axis=(0, 1))
         mesh, A = coarser, assemble_stiffness(coarser, ELEMENTS["P1"], k)
-    return levels + _algebraic(A)
+    below = _algebraic(A)
+    robust = robust or (len(below) > 1 and jumps(k))
+    levels += below
+    return [replace(level, robust=True) for level in levels] if robust else levels
+
+
+def jumps(coefficient):
+    """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot follow it."""
+    return coefficient is not None and bool(coefficient.max() > _JUMP * coefficient.min())
 
 
 def is_nested(mesh):
     """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
-    return mesh.coarser() is not None and stretch_of(mesh) <= _STRETCHED
+    return mesh.coarser() is not None and stretch_of(mesh) <= STRETCHED
 
 
 def stretch_of(mesh):
@@ -88,15 +115,25 @@ def stretch_of(mesh):
     return largest
 
 
-def _algebraic(A):
+def causes(problem):
+    """What in a problem costs digits, for a message: cell shapes, the coefficient; and the remedy."""
+    stretched = f"there are cells {stretch_of(problem.mesh):.2g} times as long as high"
+    if problem.coefficient is None:
+        return f"{stretched}; stretch cells less"
+    range_of = problem.coefficient.max() / problem.coefficient.min()
+    return f"{stretched}, and the coefficient varies by {range_of:.1g}; stretch cells less, or let it vary less"
+
+
+def _algebraic(A, robust=False):
     """Levels that follow the large entries of A alone."""
     if A.shape[0] <= _SMALL:
-        return [Level(A)]
+        return [Level(A, robust=robust)]
     from pyamg import ruge_stuben_solver
     from scipy.sparse import csr_array, csr_matrix
 
     found = ruge_stuben_solver(csr_matrix(A), max_coarse=_SMALL).levels
-    return [Level(csr_array(level.A), csr_array(level.P)) for level in found[:-1]] + [Level(csr_array(found[-1].A))]
+    coarsest = Level(csr_array(found[-1].A), robust=robust)
+    return [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]] + [coarsest]
 
 
 def _means(pairs, count):
@@ -153,19 +190,41 @@ class Cycle:
         if level.P is None:
             x[self.free[k]] = self.inverse @ r[self.free[k]]
             return x
-        self._sweep(k, x, r, 1)
-        rest = level.A @ x
+        self.sweep(k, x, r, 1)
+        rest = level.product(x)
         np.subtract(r, rest, out=rest)
         rest[self.held[k]] = 0.0
         correction = level.P @ self(level.R @ rest, k + 1)
         correction[self.held[k]] = 0.0
         x += correction
-        self._sweep(k, x, r, -1)
+        self.sweep(k, x, r, -1)
         return x
 
-    def _sweep(self, k, x, r, step):
+    def sweep(self, k, x, r, step):
+        """Gauss and Seidel's sweep for A x = r on level k in place, forwards (step 1) or backwards (-1)."""
         from pyamg.amg_core import gauss_seidel_indexed
 
         A, rows = self.levels[k].A, self.free[k]
         first, end = (0, rows.size) if step > 0 else (rows.size - 1, -1)
         gauss_seidel_indexed(A.indptr, A.indices, A.data, x, r, rows, first, end, step)
+
+
+class Eliminated:
+    """The same with the held unknowns eliminated first: levels that follow what is left of A alone."""
+
+    def __init__(self, levels, held):
+        self.level, self.rows = levels[0], np.flatnonzero(~held)
+        A = levels[0].A[self.rows][:, self.rows]
+        inner = _algebraic(A, robust=True)
+        self.inner = Cycle(inner, np.zeros(self.rows.size, dtype=bool))
+
+    def __call__(self, r):
+        """As `Cycle`."""
+        z = np.zeros_like(r)
+        z[self.rows] = self.inner(r[self.rows])
+        return z
+
+
+def preconditioner(levels, held):
+    """The `Cycle` of levels with some unknowns held, or where they ask for it the `Eliminated` one."""
+    return (Eliminated if levels[0].robust else Cycle)(levels, held)

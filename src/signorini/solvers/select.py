@@ -8,6 +8,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, fits
+from signorini.solvers.found import Found
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
@@ -19,7 +20,8 @@ METHODS = {
 
 
 _FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
-_TOUCHING = 2.0**-44  # of max |u|: above the round-off of every route, below any gap that the mesh resolves
+_ASKED = "asked for"
+_NEARLY_CONSTANT = 0.25  # data that vary by less of their size are shifted before solving
 
 
 def solve(problem, method="auto", guess=None):
@@ -36,13 +38,15 @@ def solve(problem, method="auto", guess=None):
     Returns
     -------
     Solution
-        Its status follows from the KKT residual recomputed from the problem.
+        Its status follows from the KKT residual, recomputed from the problem, and from the estimated errors of u and of
+        the contact forces; see docs/solvers.md.
 
     Raises
     ------
     SolverError
         If the data or the solution are not finite, the problem has no or no unique solution, the method is unknown or
-        does not apply, or the KKT residual of the result exceeds 1e-6.
+        does not apply or cannot prove its contact set, no digit of u survives rounding, or the KKT residual of the
+        result exceeds 1e-6.
 
     Examples
     --------
@@ -56,24 +60,27 @@ def solve(problem, method="auto", guess=None):
     if not problem.fixed.size:
         _check_solvable(problem)
     method, reason = _choose(problem, method)
-    module, function = METHODS[method]
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
+    constant = _constant(scaled)
+    shifted = _shifted(scaled, constant)
     if method != "fourier":
-        _check_symmetric(scaled.A)
-    u, active, iterations, accuracy = getattr(importlib.import_module(module), function)(scaled, guess)
-    active = _touching(scaled, u, active)
-    u[scaled.contact[active]] = scaled.lower[active]
-    residual, multiplier = kkt_residual(scaled, u)
-    status = status_of(residual, accuracy)
+        _check_symmetric(shifted.A)
+    found, method, reason = _find(shifted, method, reason, guess)
+    u, variation = found.u, np.ptp(found.u)
+    active = found.active
+    residual, _ = kkt_residual(shifted, u)
+    accuracy = found.accuracy + _stored(u, constant, variation)
+    status = status_of(residual, accuracy, found.multiplier_accuracy)
     if status == "failed":
         raise SolverError(
             f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
             "look for extreme cell shapes or try another solver.method"
         )
+    multiplier = np.where(active, np.maximum(found.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
-        u = np.ldexp(u, exponent, out=u)
-        multiplier = np.ldexp(np.where(active, np.maximum(multiplier, 0.0), 0.0), exponent)
+        deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
+        u = _with_constant(problem, deviation, np.ldexp(constant, exponent), active)
     if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
         raise SolverError("data: the solution exceeds the largest number, 1.8e308; scale the data down")
     return Solution(
@@ -82,11 +89,32 @@ def solve(problem, method="auto", guess=None):
         active=active,
         residual=residual,
         accuracy=accuracy,
+        multiplier_accuracy=found.multiplier_accuracy,
+        undecided=found.undecided,
         status=status,
-        iterations=iterations,
+        iterations=found.iterations,
         method=method,
         reason=reason,
+        constant=float(np.ldexp(constant, exponent)),
+        deviation=deviation,
+        problem=problem,
     )
+
+
+def _find(problem, method, reason, guess):
+    """What a route finds; where multigrid, not asked for, finds no proof, what the direct route finds."""
+    try:
+        return _by_route(problem, method, guess), method, reason
+    except SolverError as error:
+        larger = not fits(problem.mesh.number_of_triangles, DIRECT[problem.element])
+        if method != "multigrid" or reason == _ASKED or larger:
+            raise
+        return _by_route(problem, "direct", guess), "direct", f"{error}"
+
+
+def _by_route(problem, method, guess):
+    module, function = METHODS[method]
+    return Found(*getattr(importlib.import_module(module), function)(problem, guess))
 
 
 def _choose(problem, method):
@@ -95,7 +123,7 @@ def _choose(problem, method):
     if method != "auto":
         if why_not := _obstruction(method, problem):
             raise SolverError(f"solver.method: {method} does not apply, {why_not}; use auto or direct")
-        return method, "asked for"
+        return method, _ASKED
     why_not = _obstruction("fourier", problem)
     if not why_not:
         kind = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
@@ -152,10 +180,38 @@ def _check_solvable(problem):
         )
 
 
-def _touching(problem, u, active):
-    """Where u binds: also where it is above the obstacle by round-off alone, so that no route decides biactive dofs."""
-    size = max(largest(values) for values in (u, problem.lower))
-    return active | (u[problem.contact] - problem.lower <= _TOUCHING * size)
+def _stored(u, constant, variation):
+    """What storing u to the last bit costs, relative to its variation."""
+    if not variation:
+        return 0.0
+    return float(np.finfo(float).eps * max(abs(np.min(u) + constant), abs(np.max(u) + constant)) / variation)
+
+
+def _with_constant(problem, deviation, constant, active):
+    """u itself, the given values taken over as they are; the same array where there is no constant."""
+    if not constant:
+        return deviation
+    u = deviation + constant
+    u[problem.fixed], u[problem.contact[active]] = problem.fixed_values, problem.lower[active]
+    return u
+
+
+def _constant(problem):
+    """A constant that u, its Dirichlet values and the obstacle may be counted from; zero where that gains no digits.
+
+    Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding would.
+    """
+    values = problem.fixed_values if problem.fixed.size else problem.lower
+    low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
+    if not (values.size and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))):
+        return 0.0
+    return float(low)
+
+
+def _shifted(problem, constant):
+    if not constant:
+        return problem
+    return _with(problem, lower=problem.lower - constant, fixed_values=problem.fixed_values - constant)
 
 
 def _exponent(problem):
@@ -169,8 +225,12 @@ def _exponent(problem):
 def _scaled(problem, exponent):
     if not exponent:
         return problem
-    parts = {name: np.ldexp(getattr(problem, name), exponent) for name in ("b", "lower", "fixed_values")}
-    scaled = replace(problem, **parts)
+    return _with(problem, **{k: np.ldexp(getattr(problem, k), exponent) for k in ("b", "lower", "fixed_values")})
+
+
+def _with(problem, **data):
+    """The problem with other data, its matrix kept if it is there already."""
+    changed = replace(problem, **data)
     if "A" in problem.__dict__:
-        scaled.__dict__["A"] = problem.A
-    return scaled
+        changed.__dict__["A"] = problem.A
+    return changed

@@ -1,15 +1,16 @@
 """A solution and its proof: the KKT residual, computed from the problem alone."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from signorini.solvers.count import count
 
-# A residual is a backward error; what it may be called, from the best name to the worst.
+# What a residual or an accuracy may be called, from the best name to the worst.
 SOLVED = 1e-10
 INACCURATE = 1e-6
 _AT_ONCE = 2**16
+_STORED = 2.0 * np.finfo(float).eps  # of (|A| |u|): what rounding u to doubles may add to a force
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,15 +28,28 @@ class Solution:
     residual : float
         Largest relative violation of the KKT conditions (`kkt_residual`), dimensionless.
     accuracy : float
-        Relative error that rounding of the matrix alone may cause, as far as the route can tell, dimensionless.
+        Estimated largest error of u, relative to its variation max u - min u; dimensionless.
+    multiplier_accuracy : float
+        Estimated largest error of the contact forces, relative to the largest of them; where none is certain, to the
+        largest force that acts on a contact dof at all, and never to less than a millionth of that. Dimensionless.
+    undecided : ndarray of bool, shape (nc,)
+        Contact dofs whose gap, or whose contact force where they bind, is below its own error: in exact arithmetic
+        they may be on the other side. Everywhere else `active` is the contact set in exact arithmetic.
     status : {"solved", "inaccurate"}
-        Never better than the residual or the accuracy.
+        Never better than the residual and the two accuracies.
     iterations : int
         Active-set steps.
     method : str
         The route taken.
     reason : str
         Why that route.
+    constant : float
+        What u was counted from, unit of u: not zero where the Dirichlet values, or else the obstacle, vary by less
+        than a quarter of their size.
+    deviation : ndarray, shape (ndof,)
+        u - constant, with the digits that u has no room for beside a large constant.
+    problem : Problem
+        What was solved.
     """
 
     u: np.ndarray
@@ -43,19 +57,37 @@ class Solution:
     active: np.ndarray
     residual: float
     accuracy: float
+    multiplier_accuracy: float
+    undecided: np.ndarray
     status: str
     iterations: int
     method: str
     reason: str
+    constant: float
+    deviation: np.ndarray = field(repr=False)
+    problem: object = field(repr=False)
+
+    @property
+    def flux(self):
+        """Contact force per length, k du/dnu, at each contact dof, shape (nc,), unit of k u per length.
+
+        The `multiplier` over `Problem.contact_lengths`; it belongs to `Problem.contact_points`.
+        """
+        return self.multiplier / self.problem.contact_lengths
 
 
 def kkt_residual(problem, u):
     """Largest relative violation of the KKT conditions by `u`.
 
-    With r = A u - b, the multiplier lambda = r on the contact dofs, the length scale G = max(|u|, |lower|, |Dirichlet
-    values|) and the force scale F = |b| + diag(A) G of each dof, it is the largest of |r| / F on the other free dofs,
-    (-lambda)+ / F, (lower - u)+ / G, min((u - lower)+ / G, lambda+ / F), and the deviation of the Dirichlet values over
-    G. Every dof has its own F: rows of A differ by many powers of ten on graded meshes.
+    With r = A u - b, the multiplier lambda = r on the contact dofs, and
+
+    - the length scale G, how much u, the Dirichlet values and the greatest obstacle vary,
+    - the scale F = |b| + diag(A) G of the other free dofs, each its own, since rows of A differ by many powers of ten,
+    - the force scale F_c, the largest sum of the sizes of a contact dof's load and fluxes a_ij (u_j - u_i),
+
+    it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G, min((u - lower)+ / G,
+    lambda+ / F_c), and the deviation of the Dirichlet values over G. A force on a contact dof counts only beyond what
+    rounding u to doubles adds to it, 2 eps (|A| |u|).
 
     Parameters
     ----------
@@ -69,37 +101,53 @@ def kkt_residual(problem, u):
     multiplier : ndarray, shape (nc,)
     """
     count(products=1)
-    force = problem.apply(u)
-    force -= problem.b
-    multiplier = force[problem.contact]
-    if not np.all(np.isfinite(force)):
-        return np.inf, multiplier
-    gap = u[problem.contact] - problem.lower
-    length_scale = max(largest(u), largest(problem.lower), largest(problem.fixed_values))
-    _divide_by_force_scale(force, problem, length_scale)
+    if not np.isfinite([np.min(u, initial=0.0), np.max(u, initial=0.0)]).all():
+        return np.inf, problem.apply(u)[problem.contact] - problem.b[problem.contact]
+    low, length_scale = _variation(problem, u)
+    imbalance = _imbalance(problem, u, low, length_scale)
+    multiplier, pressure, pull = _pressure(problem, u)
     length_scale = length_scale or 1.0
-    gap /= length_scale
-    pressure = force[problem.contact]
-    force[problem.contact] = 0.0
-    force[problem.fixed] = 0.0
+    gap = (u[problem.contact] - problem.lower) / length_scale
     violations = (
-        largest(force),
-        largest(np.minimum(pressure, 0.0)),
+        imbalance,
+        largest(np.maximum(pull, 0.0)),
         largest(np.minimum(gap, 0.0)),
         largest(np.minimum(np.maximum(gap, 0.0), np.maximum(pressure, 0.0))),
         largest(u[problem.fixed] - problem.fixed_values) / length_scale,
     )
-    return float(max(violations)), multiplier
+    worst = float(max(violations))
+    return worst if np.isfinite(worst) else np.inf, multiplier
 
 
-def _divide_by_force_scale(force, problem, length_scale):
-    """Divide by |b| + diag(A) G in place, where that is not zero; a part at a time, for memory."""
+def _variation(problem, u):
+    """The least of u and of the Dirichlet values, and how much both and the greatest obstacle vary."""
+    values = (u, problem.fixed_values)
+    low = min(np.min(part, initial=np.inf) for part in values)
+    return low, float(max(np.max(part, initial=-np.inf) for part in (*values, problem.lower)) - low)
+
+
+def _imbalance(problem, u, low, length_scale):
+    """Largest |A u - b| over |b| + diag(A) G among the free dofs off the contact part."""
+    far = problem.grid is None and abs(low) > length_scale  # then a product with A would round u, not its variation
+    force = problem.apply(u - low if far else u)
+    force -= problem.b
+    force[problem.contact] = force[problem.fixed] = 0.0
     scale = _diagonal(problem)
     scale *= length_scale
     for first in range(0, force.size, _AT_ONCE):
         part = slice(first, first + _AT_ONCE)
         scale[part] += np.abs(problem.b[part])
         force[part] = np.divide(force[part], scale[part], out=np.zeros(force[part].size), where=scale[part] > 0.0)
+    return largest(force)
+
+
+def _pressure(problem, u):
+    """The multiplier; and by how much, in units of F_c, it is certain to press and to pull."""
+    force, fluxes, sizes = problem.contact_fluxes(u)
+    load = problem.b[problem.contact]
+    multiplier, scale = force - load, np.max(fluxes + np.abs(load), initial=0.0) or 1.0
+    rounding = _STORED * sizes
+    return multiplier, (multiplier - rounding) / scale, (-multiplier - rounding) / scale
 
 
 def largest(values):
@@ -113,8 +161,8 @@ def _diagonal(problem):
     return problem.A.diagonal() if problem.grid is None else diagonal(problem.grid, problem.element)
 
 
-def status_of(residual, accuracy=0.0):
-    """Name a residual and an accuracy: "solved" up to 1e-10, "failed" for a residual above 1e-6, else "inaccurate"."""
-    if max(residual, accuracy) <= SOLVED:
+def status_of(residual, *accuracies):
+    """Name a residual and accuracies: "solved" up to 1e-10, "failed" for a residual above 1e-6, else "inaccurate"."""
+    if max((residual, *accuracies)) <= SOLVED:
         return "solved"
     return "inaccurate" if residual <= INACCURATE else "failed"

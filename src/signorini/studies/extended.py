@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.solvers.found import LEAST_FORCE
 from signorini.studies.couplings import couplings
 from signorini.studies.elimination import EXTENDED, Elimination
 
@@ -80,7 +81,8 @@ class Judgement:
 
     def force(self, decided):
         """What errors of contact forces are relative to: the largest at the dofs `decided`, or else `acting`."""
-        return np.max(self.multiplier, where=decided, initial=0) or self.acting
+        largest = np.max(self.multiplier, where=decided, initial=0)
+        return max(largest, LEAST_FORCE * self.acting) if largest else self.acting
 
     def rounding(self, decided):
         """One rounding of the terms of contact forces to double precision, relative to `force`."""

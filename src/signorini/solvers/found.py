@@ -1,0 +1,138 @@
+"""What a route found, before it is checked against the problem and named."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.solvers.residual import EPS
+
+_TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
+LEAST_FORCE = 1e-6  # of the forces acting: a contact force smaller than this is not what others are measured by
+_SAFETY, _PESSIMISM = 3.0, 30.0  # of a bound over the sample at the same dof, at least; over the largest, at most
+ROUNDING = 64.0  # roundings of the largest gap and force, below which a sign may be one
+NO_DIGIT = 0.1  # error of u, relative to its variation, from which there is no solution to return
+
+
+class Found(NamedTuple):
+    """A route's answer with what it knows of its errors.
+
+    Attributes
+    ----------
+    u : ndarray, shape (ndof,)
+        Degrees of freedom.
+    active : ndarray of bool, shape (nc,)
+        Contact dofs that bind.
+    iterations : int
+        Active-set steps.
+    accuracy : float
+        Estimated largest error of u, relative to its variation, but for its last rounding; dimensionless.
+    multiplier : ndarray, shape (nc,)
+        Contact forces, of whatever sign rounding left them.
+    multiplier_accuracy : float
+        See `Solution`.
+    undecided : ndarray of bool, shape (nc,)
+        See `Solution`.
+    """
+
+    u: np.ndarray
+    active: np.ndarray
+    iterations: int
+    accuracy: float
+    multiplier: np.ndarray
+    multiplier_accuracy: float
+    undecided: np.ndarray
+
+
+class Errors(NamedTuple):
+    """Estimated errors with a contact set held.
+
+    Attributes
+    ----------
+    u, force : float
+        Largest error of u, and of a contact force.
+    gaps, forces : ndarray, shape (nc,)
+        A bound of the error of each gap and of each contact force.
+    loads : ndarray, shape (nc,)
+        The rounding of all rows, condensed to each contact dof: what could press there instead of a gap.
+    stiffness : ndarray, shape (nc,)
+        About the force on each contact dof that moves it by one.
+    acting : float
+        The largest force that acts on a contact dof at all: the sum of the sizes of its load and its fluxes.
+    """
+
+    u: float
+    force: float
+    gaps: np.ndarray
+    forces: np.ndarray
+    loads: np.ndarray
+    stiffness: np.ndarray
+    acting: float
+
+
+def bound_of(pushed, samples):
+    """Bounds of the errors of gaps or forces, shape (nc,), from what rounding does that pushes one way or at random.
+
+    Parameters
+    ----------
+    pushed : ndarray, shape (nc,)
+        The effect of all rounding pushing one way: a bound where inv(A) >= 0, and far too much on stretched CR cells.
+    samples : ndarray, shape (k, nc)
+        Effects with random signs.
+    """
+    samples = np.abs(samples)
+    low, high = _SAFETY * samples.max(axis=0), _PESSIMISM * samples.max(initial=0.0)
+    return np.maximum(np.minimum(np.abs(pushed), high), low)
+
+
+def wrong_signs(active, gap, force, errors, variation=None):
+    """Contact dofs whose gap, or force where they bind, is negative beyond its own error; shape (nc,) of bool.
+
+    With a `variation` of u, beyond the rounding of the number itself, if that is less.
+    """
+    gaps, forces = errors.gaps, errors.forces
+    if variation is not None:
+        gaps = np.minimum(gaps, ROUNDING * EPS * variation)
+        forces = np.minimum(forces, ROUNDING * EPS * errors.acting)
+    return np.where(active, force < -forces, gap < -gaps)
+
+
+def touching(active, gap, errors, variation):
+    """Contact dofs above the obstacle by round-off alone: they count as binding, so that no route decides them."""
+    return ~active & (gap <= np.minimum(errors.gaps, _TOUCHING * variation))
+
+
+def proved(u, active, iterations, gap, force, errors, released=0.0):
+    """The answer of a route none of whose signs are wrong.
+
+    An undecided dof may be on the other side, and move by what its force could do, or press by what its gap could.
+
+    Parameters
+    ----------
+    u, active, iterations
+        See `Found`.
+    gap, force : ndarray, shape (nc,)
+        Of the contact dofs.
+    errors : Errors
+    released : float
+        By how much rounding moves u at most where undecided dofs that bind are let go, if a route knows it better than
+        by their own forces and stiffness.
+    """
+    undecided = np.where(active, force <= errors.forces, gap <= errors.gaps)
+    bound, loose = active & undecided, ~active & undecided
+    moved = max(released, _largest(force / errors.stiffness, bound)) + _largest(gap, loose)
+    pressed = _largest(force, bound) + _largest(errors.loads, loose)
+    variation = float(np.ptp(u)) if u.size else 0.0
+    accuracy = _share(errors.u + moved, variation)
+    largest = _largest(force, active & ~undecided)
+    largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting
+    return Found(u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided)
+
+
+def _largest(values, where):
+    return float(np.max(np.abs(values), where=where, initial=0.0))
+
+
+def _share(error, size):
+    if not error:
+        return 0.0
+    return float(error / size) if size else np.inf

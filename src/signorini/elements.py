@@ -46,8 +46,9 @@ class _P1(Element):
         """Degrees of freedom on the closed part `label` of the boundary, increasing."""
         return mesh.boundary_vertices(label)
 
-    def boundary_lengths(self, mesh, facets, ends, lengths):
-        """What length of some boundary facets each degree of freedom stands for, shape (ndof,)."""
+    def boundary_lengths(self, mesh, label):
+        """What length of the part `label` of the boundary each degree of freedom stands for, shape (ndof,)."""
+        ends, lengths = _facets_of(mesh, label)
         return np.bincount(np.ravel(ends), np.tile(0.5 * lengths, 2), minlength=self.size(mesh))
 
     def nodes(self, mesh, dofs):
@@ -78,9 +79,9 @@ class _CR(Element):
         """Degrees of freedom on the part `label` of the boundary, increasing."""
         return mesh.boundary_facets(label)
 
-    def boundary_lengths(self, mesh, facets, ends, lengths):
-        """What length of some boundary facets each degree of freedom stands for, shape (ndof,)."""
-        return np.bincount(facets, lengths, minlength=self.size(mesh))
+    def boundary_lengths(self, mesh, label):
+        """What length of the part `label` of the boundary each degree of freedom stands for, shape (ndof,)."""
+        return np.bincount(mesh.boundary_facets(label), _facets_of(mesh, label)[1], minlength=self.size(mesh))
 
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs)): midpoints of facets."""
@@ -92,6 +93,13 @@ class _CR(Element):
         from skfem import ElementTriCR
 
         return ElementTriCR()
+
+
+def _facets_of(mesh, label):
+    """End vertices of the facets that carry a label, shape (2, k), and their lengths."""
+    ends = mesh.facet_ends(mesh.boundary_facets(label))
+    start, end = (mesh.points(vertices) for vertices in ends)
+    return ends, np.hypot(*(end - start))
 
 
 # The CR function of the facet (i, j) is 1 at its two ends and -1 at the opposite vertex; facets run 01, 12, 02.

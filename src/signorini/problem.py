@@ -109,11 +109,7 @@ class Problem:
 
         For CR that of its facet, for P1 half of each contact facet that meets there.
         """
-        facets = self.mesh.boundary_facets("contact")
-        ends = self.mesh.facet_ends(facets)
-        start, end = (self.mesh.points(vertices) for vertices in ends)
-        lengths = np.hypot(*(end - start))
-        return find_element(self.element).boundary_lengths(self.mesh, facets, ends, lengths)[self.contact]
+        return find_element(self.element).boundary_lengths(self.mesh, "contact")[self.contact]
 
 
 def discretize(scene, element, n):

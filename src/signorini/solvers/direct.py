@@ -20,7 +20,7 @@ from signorini.mesh.grid import Grid
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.count import count
 from signorini.solvers.found import NO_DIGIT, Errors, bound_of, proved, touching, wrong_signs
-from signorini.solvers.hierarchy import STRETCHED, causes, jumps, stretch_of
+from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of
 
 _LEAF = 8
@@ -77,7 +77,7 @@ class _Body:
         if np.any(self.condensed.S.diagonal() <= 0.0):
             raise SolverError(_why_singular(problem))
         self.operator = DenseContact(self.condensed.S) if problem.contact.size else None
-        stretched = not isinstance(problem.mesh, Grid) and stretch_of(problem.mesh) > STRETCHED
+        stretched = not isinstance(problem.mesh, Grid) and problem.mesh.stretch > STRETCHED
         self.inexact = _inexact(problem) if stretched else None
         self.even = not (stretched or jumps(problem.coefficient))
 

@@ -12,7 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from signorini.assembly import assemble_stiffness
-from signorini.blocks import blocks
 from signorini.elements import ELEMENTS
 from signorini.exceptions import MeshError
 from signorini.solvers.residual import residual
@@ -75,7 +74,7 @@ def build_hierarchy(problem):
     """
     levels, mesh, A, k = [], problem.mesh, problem.A, problem.coefficient
     robust = False
-    if stretch_of(mesh) > STRETCHED:
+    if mesh.stretch > STRETCHED:
         return _algebraic(A, robust=True)
     if problem.element == "CR" and A.shape[0] > _SMALL:
         levels.append(Level(A, _means(mesh.facets, mesh.number_of_vertices)))
@@ -102,22 +101,12 @@ def jumps(coefficient):
 
 def is_nested(mesh):
     """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
-    return mesh.coarser() is not None and stretch_of(mesh) <= STRETCHED
-
-
-def stretch_of(mesh):
-    """The largest ratio of a triangle's longest edge to the height on it, dimensionless."""
-    largest = 0.0
-    for cells in blocks(mesh.number_of_triangles):
-        edges = mesh.edge_vectors(cells)
-        doubled_area = np.abs(edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0])
-        largest = max(largest, float(((edges**2).sum(axis=1).max(axis=0) / doubled_area).max()))
-    return largest
+    return mesh.coarser() is not None and mesh.stretch <= STRETCHED
 
 
 def causes(problem):
     """What in a problem costs digits, for a message: cell shapes, the coefficient; and the remedy."""
-    stretched = f"there are cells {stretch_of(problem.mesh):.2g} times as long as high"
+    stretched = f"there are cells {problem.mesh.stretch:.2g} times as long as high"
     if problem.coefficient is None:
         return f"{stretched}; stretch cells less"
     range_of = problem.coefficient.max() / problem.coefficient.min()

@@ -23,7 +23,7 @@ from signorini.mesh.grid import Grid
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
 from signorini.solvers.found import NO_DIGIT, ROUNDING, Errors, bound_of, proved, touching, wrong_signs
-from signorini.solvers.hierarchy import HALF, STRETCHED, build_hierarchy, causes, preconditioner, stretch_of
+from signorini.solvers.hierarchy import HALF, STRETCHED, build_hierarchy, causes, preconditioner
 from signorini.solvers.residual import BELOW, EPS, residual_and_fluxes, rounding_of
 
 _MAX_STEPS = 300
@@ -41,7 +41,7 @@ _log = logging.getLogger(__name__)
 
 def obstruction(problem):
     """Say why the route does not apply to a problem, or None where it does."""
-    most, stretch = _STRETCH[problem.element], stretch_of(problem.mesh)
+    most, stretch = _STRETCH[problem.element], problem.mesh.stretch
     if stretch > most:
         return f"there are cells {stretch:.0f} times as long as high, and {problem.element} takes at most {most:g}"
     return None
@@ -88,7 +88,7 @@ def _same_length(guess, active):
 
 def _proved(problem, search):
     """Solve to the last bit, until no sign is wrong beyond its own error."""
-    stretched = not isinstance(problem.mesh, Grid) and stretch_of(problem.mesh) > STRETCHED
+    stretched = not isinstance(problem.mesh, Grid) and problem.mesh.stretch > STRETCHED
     kind = find_element(problem.element)
     errors_of_A = stiffness_errors(problem.mesh, kind, problem.coefficient) if stretched else None
     closed = False

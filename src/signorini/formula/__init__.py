@@ -28,7 +28,8 @@ class Formula:
     Notes
     -----
     Variables
-        `x`, `y`, `r` = sqrt(x**2 + y**2), `theta` = atan2(y, x) in (-pi, pi], +pi also at y = -0.0 and x < 0.
+        `x`, `y`, `r` = sqrt(x**2 + y**2), `theta` = atan2(y, x) in (-pi, pi]. A coordinate -0.0 counts as
+        0.0: the same point has the same value.
     Constants
         Decimal numbers, each a double, `pi` and `e`.
     Operators
@@ -40,6 +41,9 @@ class Formula:
         `< <= > >= == !=`, chains such as 0 < x < 1, `and`, `or`, `not`. They stand in the first argument of
         `where(condition, a, b)`, nowhere else, and are no numbers. A NaN in the branch not taken is harmless;
         where a condition hangs on a NaN, the result is NaN.
+    Signed zeros
+        As in IEEE 754, up to the result: -2*x*y is -0.0 at (1, 0), and atan2(-2*x*y, -1) there -pi, the limit from
+        y > 0. Only of zeros of both signs `min` and `max` take either. A result of zero has no sign.
     Derivatives
         At a kink: of the branch taken in `where`; from the right (t >= 0) in `abs` and `pos`; of the first of
         equal arguments in `min` and `max`; zero for `sign`, `step`, `floor`, `ceil`. Not finite at r = 0 for

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.formula.values import VALUES, atan2, compare, hypot, power, select
+from signorini.formula.values import VALUES, compare, hypot, power, select
 
 
 class Jet(NamedTuple):
@@ -80,7 +80,7 @@ def polar(a, b):
     c, s = b.u / rho, a.u / rho
     drho, dphi = c * b.du + s * a.du, (c * a.du - s * b.du) / rho
     radius = Jet(rho, drho, c * b.ddu + s * a.ddu + rho * dphi * dphi)
-    angle = Jet(atan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
+    angle = Jet(np.arctan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
     return radius, angle
 
 
@@ -89,9 +89,9 @@ def choose(condition, s, t):
     return Jet(*(select(condition.u, a, b) for a, b in zip(s, t, strict=True)))
 
 
-def extreme(sign, *terms):
+def extreme(pick, sign, *terms):
     """Derivatives of the least or greatest term, of the first one at a tie."""
-    return reduce(lambda s, t: choose(Jet(compare((sign,), s.u, t.u)), s, t), terms)
+    return reduce(lambda s, t: choose(Jet(compare((sign,), s.u, t.u)), s, t)._replace(u=pick(s.u, t.u)), terms)
 
 
 RULES = {
@@ -102,8 +102,8 @@ RULES = {
     "**": raise_to,
     "hypot": lambda a, b: polar(a, b)[0],
     "atan2": lambda a, b: polar(a, b)[1],
-    "min": partial(extreme, "<="),
-    "max": partial(extreme, ">="),
+    "min": partial(extreme, np.minimum, "<="),
+    "max": partial(extreme, np.maximum, ">="),
     "where": choose,
 }
 
@@ -150,12 +150,13 @@ def expand(program, x, y, axis="", order=0):
     list of ndarray
         New arrays u, u', u'' up to the order, each of the broadcast shape.
     """
-    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    # A point does not depend on the sign of a zero among its coordinates: adding 0.0 clears it.
+    x, y = (np.asarray(part, dtype=np.float64) + 0.0 for part in (x, y))
     shape = np.broadcast_shapes(x.shape, y.shape)
     # One dimension at least, so that an exponent that varies never passes for a constant one.
     leaves = {"x": Jet(np.atleast_1d(x), float(axis == "x")), "y": Jet(np.atleast_1d(y), float(axis == "y"))}
     jet = run(program, leaves)
-    # Adding 0.0 clears the sign of zero.
+    # So does no result.
     return [(np.broadcast_to(part, shape or (1,)) + 0.0).reshape(shape) for part in jet[: order + 1]]
 
 

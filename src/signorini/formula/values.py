@@ -18,21 +18,17 @@ def hypot(a, b):
     return np.ldexp(np.sqrt(a * a + b * b), k)
 
 
-def atan2(a, b):
-    """Angle in (-pi, pi]; adding 0.0 clears the sign of -0.0, which would give -pi on the negative axis."""
-    return np.arctan2(a + 0.0, b + 0.0)
-
-
 def power(u, p):
     """u**p; small multiples of 1/2 by products and sqrt, for the same bits everywhere and exact scaling."""
     if np.ndim(p) or not abs(p) <= EXACT_POWERS or 2 * p != np.floor(2 * p):
         return np.power(u, p)
     if p < 0:
         return 1.0 / power(u, -p)
-    product = np.sqrt(u) if p > np.floor(p) else 1.0
+    half = p > np.floor(p)
+    product = np.sqrt(u) if half else 1.0
     for _ in range(int(p)):
         product = product * u
-    return product
+    return np.abs(product) if half else product  # a root of -0.0 is -0.0, a half power of it +0.0
 
 
 def both(a, b):
@@ -90,11 +86,11 @@ VALUES = {
     "floor": np.floor,
     "ceil": np.ceil,
     "step": lambda t: np.heaviside(t, 1.0),
-    "pos": lambda t: np.maximum(t, 0.0),
+    "pos": lambda t: np.maximum(t, 0.0) + 0.0,
     "min": lambda *terms: reduce(np.minimum, terms),
     "max": lambda *terms: reduce(np.maximum, terms),
     "hypot": hypot,
-    "atan2": atan2,
+    "atan2": np.arctan2,
     "and": both,
     "or": either,
     "not": lambda a: 1.0 - a,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from signorini.exact import FAMILIES, Diffused, FormulaSolution, derived_data, family, read_exact
-from signorini.exact.check import Samples, check_data
+from signorini.exact.check import check_data
+from signorini.exact.samples import Samples
 from signorini.exact.sides import find_side
 from signorini.exceptions import FormulaError, SceneError
 from signorini.formula import Formula

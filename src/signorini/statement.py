@@ -81,24 +81,23 @@ class ProblemStatement:
 
         return make_domain(self.domain, self.boundary, self.coarsest)
 
-    def check(self, domain=None):
-        """Hold typed data against an exact truth, and that against Signorini's conditions, on the coarsest level.
-
-        Parameters
-        ----------
-        domain : Rectangle or Refined, optional
-            `triangulations`, where it has been made already.
+    def check(self):
+        """Hold typed data against an exact truth, and that against balance and Signorini's conditions; once.
 
         Raises
         ------
         SceneError
             Naming the datum or condition, the point, and both values.
         """
-        if self.exact is not None:
-            from signorini.exact.check import Samples, check_data
+        return self._checked
 
-            mesh = (domain or self.triangulations).level(self.coarsest)
-            check_data(self.exact, self.data, Samples.of(mesh))
+    @cached_property
+    def _checked(self):
+        if self.exact is not None:
+            from signorini.exact.check import check_data
+            from signorini.exact.samples import Samples
+
+            check_data(self.exact, self.data, Samples.of_domain(self.triangulations, self.coarsest))
 
     @classmethod
     def from_mapping(cls, mapping):

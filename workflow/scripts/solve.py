@@ -20,7 +20,6 @@ def main(arguments):
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
     domain = read_domain(arguments.mesh)
     check_level(statement, arguments.element, arguments.n, arguments.method, domain)
-    statement.check(domain)
     problem = discretize_on(domain.level(arguments.n), arguments.element, statement)
     solution = solve(problem, arguments.method)
     write_solution(arguments.output, problem, solution, arguments.n, domain.mesh_size(arguments.n))

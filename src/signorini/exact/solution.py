@@ -22,9 +22,12 @@ class ExactSolution(ABC):
         Where a derivative of u is unbounded; quadrature is refined towards them.
     constant_load : float or None
         The load's value where it is known to be the same everywhere.
+    coefficient : Formula or None
+        Diffusion coefficient k; None where it is 1.
     """
 
     obstacle = None
+    coefficient = None
     critical_points = ()
     singular_points = ()
     constant_load = None
@@ -91,12 +94,14 @@ class FormulaSolution(ExactSolution):
 
 @dataclass(frozen=True)
 class Diffused(ExactSolution):
-    """An exact solution under a diffusion coefficient k, constant per subdomain: load -k Laplace u, flux k du/dnu.
+    """An exact solution under a diffusion coefficient k: load -div(k grad u), flux k du/dnu.
+
+    The coefficient may jump across lines, and vary between them.
 
     Parameters
     ----------
     u : ExactSolution
-        Its k du/dnu must not jump where k does (`check_data` tries).
+        Its k du/dnu must not jump where k does; see `balance.check_balance`.
     coefficient : Formula
     """
 
@@ -130,7 +135,12 @@ class Diffused(ExactSolution):
         return self.u.gradient(x, y)
 
     def load(self, x, y):
-        return self.coefficient(x, y) * self.u.load(x, y)
+        k, kx, ky = self.coefficient.value_and_gradient(x, y)
+        load = k * self.u.load(x, y)
+        if not (kx.any() or ky.any()):
+            return load
+        ux, uy = self.u.gradient(x, y)
+        return load - kx * ux - ky * uy
 
     def flux(self, x, y, nx, ny):
         return self.coefficient(x, y) * self.u.flux(x, y, nx, ny)

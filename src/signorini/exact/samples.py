@@ -1,0 +1,118 @@
+"""Where an exact solution is looked at: triangles that cover the domain, and points close by each other on its sides.
+
+How many there are does not depend on the levels of a scene. The triangles are shaken, so that lines along which a
+formula changes do not run along their edges, and stay a little clear of the boundary, where a solution may be singular.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.boundary import LABELS, SIDES, by_formula
+from signorini.exact.sides import find_side
+from signorini.formula import Formula
+from signorini.mesh.domain import Rectangle
+from signorini.mesh.grid import Grid
+from signorini.mesh.labels import NamedMesh
+from signorini.mesh.patterns import perturbed
+from signorini.quadrature import triangle_rule
+
+FEWEST, MOST = 2**11, 2**15  # triangles; a line across a square meets some 60 of the fewest
+ON_SIDES = 2**12  # points on the facets of one label: four or more in any 1/1000 of them
+_SHAKEN, _CLEAR = 0.7, 1e-3  # moves in units of `perturbed`, and the gap to neighbours in units of a triangle
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Where data and an exact solution are compared.
+
+    Attributes
+    ----------
+    cells : ndarray, shape (2, 3, m)
+        Coordinates of the corners of triangles, inside the domain and apart from each other.
+    dirichlet, neumann, contact : tuple of ndarray
+        x, y, nx, ny: points on the sides and outward unit normals.
+    """
+
+    cells: np.ndarray
+    dirichlet: tuple
+    neumann: tuple
+    contact: tuple
+
+    @property
+    def inside(self):
+        """x and y of points inside the triangles, nine in each."""
+        return np.einsum("dkm,kq->dmq", self.cells, triangle_rule(4)[0]).reshape(2, -1)
+
+    @classmethod
+    def of(cls, mesh, boundary=None):
+        """Samples of the domain of a mesh.
+
+        Parameters
+        ----------
+        mesh : Grid or Triangulation
+        boundary : dict, optional
+            The section ``boundary`` of a scene where it is by formula: then not facets have a label but points.
+        """
+        while mesh.number_of_triangles < FEWEST:
+            mesh = _finer(mesh)
+        sides = {label: _on_side(mesh, label) for label in LABELS}
+        return cls(_cells(mesh), **(_labelled(sides.values(), boundary) if boundary else sides))
+
+    @classmethod
+    def of_domain(cls, domain, coarsest):
+        """Samples of a `Rectangle`, the same for all its levels and patterns, or of a `Refined`, from its root."""
+        boundary = domain.boundary if domain.boundary and by_formula(domain.boundary) else None
+        if not isinstance(domain, Rectangle):
+            return cls.of(domain.level(coarsest), boundary)
+        origin, size = tuple(map(float, domain.origin)), tuple(map(float, domain.size))
+        labels = ("neumann",) * 4 if boundary else tuple(domain.boundary[side] for side in SIDES)
+        return cls.of(Grid(*_counts(*size), origin, size, "falling", labels), boundary)
+
+
+def _counts(width, height):
+    """Cells along x and y, nearly squares, of which there are enough."""
+    columns = round(float(np.clip((FEWEST / 2 * width / height) ** 0.5, 4, FEWEST / 8)))
+    return columns, -(-FEWEST // (2 * columns))
+
+
+def _finer(mesh):
+    if isinstance(mesh, Grid):
+        return Grid(2 * mesh.nx, 2 * mesh.ny, mesh.origin, mesh.size, mesh.diagonal, mesh.labels)
+    return mesh.refined()
+
+
+def _cells(mesh):
+    """Corners of the shaken triangles, of every so many where there are too many."""
+    ends = {label: mesh.facets[:, mesh.boundary_facets(label)] for label in LABELS}
+    t = _counterclockwise(mesh)
+    p = perturbed(NamedMesh(mesh.p, t, ends), _SHAKEN, seed=0).p
+    corners = p[:, t[:, :: -(-t.shape[1] // MOST)]]
+    return corners + _CLEAR * (corners.mean(axis=1, keepdims=True) - corners)
+
+
+def _counterclockwise(mesh):
+    a, b, c = mesh.p[:, mesh.t].transpose(1, 0, 2)
+    (abx, aby), (acx, acy) = b - a, c - a
+    return np.where(abx * acy > aby * acx, mesh.t, mesh.t[[1, 0, 2]])
+
+
+def _on_side(mesh, label):
+    """x, y, nx, ny of points in equal distances on the facets that carry a label; three on each at least."""
+    side = find_side(mesh, label)
+    counts = np.maximum(3, np.ceil(ON_SIDES * side.length / max(side.length.sum(), np.finfo(float).tiny))).astype(int)
+    of = np.repeat(np.arange(counts.size), counts)
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    s = (np.arange(of.size) - first + 0.5) / counts[of]
+    start, end = side.ends[:, 0, of], side.ends[:, 1, of]
+    return (*(start + s * (end - start)), *side.normal[:, of])
+
+
+def _labelled(sides, boundary):
+    """The points of all sides together, sorted by the formula that is positive at them."""
+    x, y, nx, ny = np.concatenate(list(sides), axis=1)
+    formulas = {label: Formula(text, f"boundary.{label}") for label, text in boundary.items() if text != "rest"}
+    positive = {label: formula(x, y) > 0.0 for label, formula in formulas.items()}
+    rest = ~np.any([np.zeros(x.shape, dtype=bool), *positive.values()], axis=0)
+    found = {label: positive.get(label, rest if label in boundary else ~rest & False) for label in LABELS}
+    return {label: (x[at], y[at], nx[at], ny[at]) for label, at in found.items()}

@@ -1,6 +1,8 @@
 """Scene files: strict YAML, the schema, what only the whole document shows, and one-line errors for the rest."""
 
 import re
+import subprocess
+import sys
 import time
 from itertools import pairwise
 from pathlib import Path
@@ -8,8 +10,8 @@ from string import ascii_lowercase
 
 import pytest
 
-from signorini.exceptions import FormulaError, SceneError, SignoriniError
-from signorini.scene import check_name, load_scene, scene_schema
+from signorini.exceptions import FormulaError, MeshError, SceneError, SignoriniError
+from signorini.scene import check_name, load_scene, read_scene, scene_schema
 from signorini.schema import validated
 from signorini.strict_yaml import load_yaml
 
@@ -355,3 +357,68 @@ def test_validation_leaves_the_document_as_it_was():
     assert filled == {"a": 1, "b": {"c": []}}
     filled["b"]["c"].append(1)
     assert validated({}, schema, "x") == {"a": 1, "b": {"c": []}}
+
+
+EXACT = """\
+domain: {kind: rectangle}
+boundary: {bottom: contact, right: dirichlet, top: dirichlet, left: dirichlet}
+levels: [2, 4]
+truth: {kind: exact, u: 1 + abs(x - 0.37)}
+"""
+
+
+def test_an_exact_truth_is_checked_when_the_scene_is_loaded_not_when_it_is_read(tmp_path):
+    path = tmp_path / "kink.yaml"
+    path.write_text(EXACT, encoding="utf-8")
+    scene = read_scene(path)
+    assert scene.problem.needs_mesh
+    message = rf"^{re.escape(str(path))}: truth: k du/dnu of the exact solution jumps"
+    with pytest.raises(SceneError, match=message):
+        scene.check()
+    with pytest.raises(SceneError, match=message):
+        load_scene(path)
+
+
+def test_reading_imports_no_numpy(tmp_path):
+    path = tmp_path / "kink.yaml"
+    path.write_text(EXACT, encoding="utf-8")
+    code = f"import sys; from signorini.scene import read_scene; read_scene({str(path)!r})"
+    code += "; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False, env={"PYTHONPATH": "src"}).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("size: [1, 1]", "size: [1.3, 1]", "domain.size: level n = 2 cuts the x side into 2.6 cells; choose n so that"),
+        ("size: [1, 1]", "size: [1, 0.25]", "domain.size: level n = 2 cuts the y side into 0.5 cells"),
+        ("size: [1, 1]", "size: [1, 1.5], cells: per-side", None),
+    ],
+)
+def test_levels_that_cut_cells_are_refused_unread(tmp_path, old, new, message):
+    path = tmp_path / "cut.yaml"
+    text = EXACT.replace("{kind: rectangle}", "{kind: rectangle, size: [1, 1]}").replace(
+        "1 + abs(x - 0.37)", "1 + y**2"
+    )
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    if message is None:
+        assert load_scene(path).levels == [2, 4]
+    else:
+        with pytest.raises(MeshError, match=rf"^{re.escape(str(path))}: {re.escape(message)}"):
+            read_scene(path)
+
+
+def test_the_reference_must_cut_whole_cells_too(tmp_path):
+    path = tmp_path / "cut.yaml"
+    text = """\
+domain: {kind: rectangle, size: [0.75, 1]}
+boundary: {bottom: contact, right: dirichlet, top: dirichlet, left: dirichlet}
+data: {f: 1}
+levels: [4, 8]
+truth: {kind: reference, n: 16}
+"""
+    path.write_text(text, encoding="utf-8")
+    assert read_scene(path).truth["n"] == 16
+    path.write_text(text.replace("[4, 8]", "[2, 4]"), encoding="utf-8")
+    with pytest.raises(MeshError, match=r"level n = 2 cuts the x side into 1\.5 cells"):
+        read_scene(path)

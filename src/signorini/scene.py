@@ -2,6 +2,7 @@
 
 import os
 import re
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -27,11 +28,19 @@ class Scene:
     document : dict
         The file's content with every default filled in.
     problem : ProblemStatement
+    source : Path, optional
+        The file.
     """
 
     name: str
     document: dict
     problem: ProblemStatement
+    source: Path | None = None
+
+    def check(self):
+        """Check what only a triangulation shows, see `ProblemStatement.check`; errors name the file."""
+        with _naming(self.source):
+            self.problem.check()
 
     def section(self, *keys):
         """The named parts of the document, as a new dict."""
@@ -65,7 +74,7 @@ def scene_schema():
 
 
 def load_scene(path):
-    """Read and validate a scene file.
+    """Read a scene file and check all that can be checked before work is done.
 
     Parameters
     ----------
@@ -77,25 +86,39 @@ def load_scene(path):
 
     Raises
     ------
-    SceneError, FormulaError
+    SceneError, FormulaError, MeshError
         One line that names the file, the field, the value and the remedy.
     """
+    scene = read_scene(path)
+    scene.check()
+    return scene
+
+
+def read_scene(path):
+    """As `load_scene`, without `Scene.check`: what the document alone shows is validated, and numpy not imported."""
     path = Path(path)
     check_name(path.stem)
     written = load_yaml(path)
     document = validated(written, scene_schema(), path)
     if "outputs" not in written and document["truth"]["kind"] == "none":
         document["outputs"] = []
-    try:
+    with _naming(path):
         check_document(document)
         if document["truth"]["kind"] != "exact":
             document["data"] = dict.fromkeys(("g", "dirichlet", "obstacle"), 0) | document["data"]
         if document["domain"]["kind"] == "mesh":
             document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
         problem = ProblemStatement.from_mapping(_statement(document))
+    return Scene(path.stem, document, problem, path)
+
+
+@contextmanager
+def _naming(path):
+    """Let an error name the scene's file."""
+    try:
+        yield
     except SignoriniError as error:
         raise type(error)(f"{path}: {error}") from None
-    return Scene(path.stem, document, problem)
 
 
 def _statement(document):

@@ -5,6 +5,7 @@ import sys
 from itertools import pairwise
 
 from signorini.boundary import LABELS, SIDES, by_formula
+from signorini.cells import count_cells
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.norms import CONTACT
@@ -27,6 +28,7 @@ def check_document(document):
         raise SceneError("data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y")
     _check_levels(document["levels"])
     _check_truth(document)
+    _check_cells(document)
     _check_outputs(document)
 
 
@@ -145,6 +147,14 @@ def _check_power(fine, coarse, complaint):
     if rest or ratio & (ratio - 1):
         near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
         raise SceneError(f"{complaint}; the finer must be {coarse} times a power of two, for instance {near}")
+
+
+def _check_cells(document):
+    """Every level and the reference must cut the sides of a rectangle into whole cells."""
+    domain, truth = document["domain"], document["truth"]
+    if domain["kind"] == "rectangle":
+        for n in [*document["levels"], *([truth["n"]] if truth["kind"] == "reference" else [])]:
+            count_cells(domain["size"], domain["cells"], n)
 
 
 def _check_outputs(document):

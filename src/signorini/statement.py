@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from signorini.boundary import by_formula
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 
@@ -81,23 +82,42 @@ class ProblemStatement:
 
         return make_domain(self.domain, self.boundary, self.coarsest)
 
+    @property
+    def needs_mesh(self):
+        """Whether more can be wrong than a document shows: the domain, names in a mesh file, an exact truth."""
+        plain = self.domain.get("kind", "rectangle") == "rectangle" and not by_formula(self.boundary)
+        return not plain or self.exact is not None
+
     def check(self):
-        """Hold typed data against an exact truth, and that against balance and Signorini's conditions; once.
+        """Check what only a triangulation shows, on the coarsest level; once, however often it is called.
+
+        The domain and the names of its parts; subdomains of the coefficient; typed data against an exact truth, and
+        that against balance and Signorini's conditions.
 
         Raises
         ------
+        MeshError
+            Naming the part of the boundary, the group, or what is wrong with the domain.
         SceneError
             Naming the datum or condition, the point, and both values.
         """
-        return self._checked
+        if self.needs_mesh:
+            return self._checked
 
     @cached_property
     def _checked(self):
+        domain = self.triangulations
+        if by_formula(self.boundary):
+            domain.level(self.coarsest)
+        if isinstance(self.data.coefficient, BySubdomain):
+            from signorini.coefficient import coefficient_on
+
+            coefficient_on(domain.level(self.coarsest), self.data.coefficient)
         if self.exact is not None:
             from signorini.exact.check import check_data
             from signorini.exact.samples import Samples
 
-            check_data(self.exact, self.data, Samples.of_domain(self.triangulations, self.coarsest))
+            check_data(self.exact, self.data, Samples.of_domain(domain, self.coarsest))
 
     @classmethod
     def from_mapping(cls, mapping):

@@ -6,6 +6,7 @@ import re
 import shutil
 import sys
 from datetime import date
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from shlex import quote
@@ -18,7 +19,7 @@ os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.env
 
 from signorini.exceptions import SignoriniError
 from signorini.norms import RATED
-from signorini.scene import check_name, load_scene
+from signorini.scene import check_name, read_scene
 from signorini.schema import nearest, validated
 from signorini.strict_yaml import load_yaml
 
@@ -80,11 +81,40 @@ def check_memory(jobs):
 @cache
 @reported
 def scene(name):
+    asked = written(name)
+    if asked.problem.needs_mesh:
+        check_once(asked)
+    return asked
+
+
+@cache
+@reported
+def written(name):
+    """A scene of which only its file has been read."""
     check_name(name)
     path = Path("config/scenes", f"{name}.yaml")
     if not path.is_file():
         raise SignoriniError(f"scenes: there is no {path}; {nearest(name, known_scenes())}")
-    return load_scene(path)
+    return read_scene(path)
+
+
+def check_once(asked):
+    """Check what takes numpy and a mesh, and remember by a file that this scene has passed this library's checks."""
+    domain = asked.document["domain"]
+    files = [Path(domain["file"])] if domain["kind"] == "mesh" else []
+    seen = as_json([asked.statement, digest(files), digest_of_checks()])
+    mark = Path(".snakemake/checked", hashlib.sha256(seen.encode()).hexdigest())
+    if mark.is_file():
+        return
+    asked.check()
+    with suppress(OSError):  # it will be checked again
+        mark.parent.mkdir(parents=True, exist_ok=True)
+        mark.touch()
+
+
+@cache
+def digest_of_checks():
+    return digest(map(Path, imported_by(SOURCE / "signorini/statement.py")))
 
 
 def known_scenes():
@@ -94,7 +124,13 @@ def known_scenes():
 @cache
 def library(script):
     """The script and every file of the library that it imports, also through others: editing one reruns its jobs."""
-    found, waiting = set(), [SCRIPTS / script]
+    return imported_by(SCRIPTS / script)
+
+
+@cache
+def imported_by(path):
+    """A file and all that it imports, also through others, sorted."""
+    found, waiting = set(), [path]
     while waiting:
         path = waiting.pop()
         if path in found:
@@ -138,7 +174,7 @@ def statement_of(name):
 
 
 def domain_of(name):
-    asked = scene(name)
+    asked = written(name)
     return asked.section("domain", "boundary") | {"coarsest": asked.levels[0]}
 
 

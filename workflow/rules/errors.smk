@@ -19,7 +19,8 @@ rule errors:
         truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
     shell:
-        "python3 workflow/scripts/errors.py --mesh {input.mesh:q} {params.truth}"
+        "python3 workflow/scripts/errors.py --scene-file config/scenes/{wildcards.scene}.yaml"
+        " --mesh {input.mesh:q} {params.truth}"
         " --norms {params.norms} --quadrature {params.quadrature}"
         " --output {output:q} {input.solutions:q} 2>&1 | tee {log:q}"
 

@@ -17,7 +17,8 @@ rule solve:
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
     shell:
-        "python3 workflow/scripts/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
+        "python3 workflow/scripts/solve.py --scene-file config/scenes/{wildcards.scene}.yaml"
+        " --statement {params.statement:q} --mesh {input.mesh:q}"
         " --element {wildcards.element} --n {wildcards.n} --method {params.method}"
         " --output {output:q} 2>&1 | tee {log:q}"
 
@@ -39,6 +40,7 @@ rule reference:
         element=lambda wildcards: scene(wildcards.scene).truth["element"],
         n=lambda wildcards: scene(wildcards.scene).truth["n"],
     shell:
-        "python3 workflow/scripts/solve.py --statement {params.statement:q} --mesh {input.mesh:q}"
+        "python3 workflow/scripts/solve.py --scene-file config/scenes/{wildcards.scene}.yaml"
+        " --statement {params.statement:q} --mesh {input.mesh:q}"
         " --element {params.element} --n {params.n} --method {params.method}"
         " --output {output:q} 2>&1 | tee {log:q}"

@@ -28,13 +28,14 @@ def run(main, description):
         First line of ``--help``.
     """
     parser = ArgumentParser(description=description)
+    parser.add_argument("--scene-file", help="the file of the scene, which errors name")
     for flag, settings in main.options:
         parser.add_argument(flag, **({"required": True} if flag.startswith("--") else {}) | settings)
-    start = time.perf_counter()
+    arguments, start = parser.parse_args(), time.perf_counter()
     try:
-        line = main(parser.parse_args())
+        line = main(arguments)
     except SignoriniError as error:
-        sys.exit(f"error: {error}")
+        sys.exit(f"error: {arguments.scene_file}: {error}" if arguments.scene_file else f"error: {error}")
     gc.freeze()
     print(f"{line} ({time.perf_counter() - start:.2f} s)")
 

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.boundary import LABELS, SIDES, by_formula
+from signorini.cells import count_cells
 from signorini.exceptions import MeshError
 from signorini.memory import GRID, MESH, check_memory
 from signorini.mesh.grid import CORNERS, Grid
@@ -85,16 +86,7 @@ class Rectangle:
         MeshError
             If a side is not a whole number of cells.
         """
-        if self.cells == "per-side":
-            return n, n
-        counts = [n * side for side in self.size]
-        for axis, count in zip("xy", counts, strict=True):
-            if round(count) < 1 or abs(count - round(count)) > 1e-9 * count:
-                raise MeshError(
-                    f"domain.size: level n = {n} cuts the {axis} side into {count:.6g} cells; choose n so that "
-                    "n times the side is a whole number, or set domain.cells to per-side"
-                )
-        return round(counts[0]), round(counts[1])
+        return count_cells(self.size, self.cells, n)
 
     @property
     def uniform(self):

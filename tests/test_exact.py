@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from signorini.errors.exact import ExactErrors
 from signorini.exact import FAMILIES, Diffused, FormulaSolution, derived_data, family, read_exact
 from signorini.exact.check import check_data
 from signorini.exact.samples import Samples
@@ -14,7 +15,10 @@ from signorini.exact.sides import find_side
 from signorini.exceptions import FormulaError, SceneError
 from signorini.formula import Formula
 from signorini.mesh import Grid, Triangulation
+from signorini.problem import discretize
 from signorini.quadrature import interval_rule, triangle_rule
+from signorini.solvers import solve
+from signorini.statement import ProblemStatement
 
 EPS = np.finfo(float).eps
 SOLUTIONS = {
@@ -310,3 +314,28 @@ def test_flux_may_be_continuous_where_the_coefficient_jumps():
     assert isinstance(exact, Diffused)
     check_data(exact, replace(derived_data(exact), obstacle=Formula("-2")), Samples.of(grid()))
     assert isinstance(read_exact({"u": "x"}, Formula("1")), FormulaSolution)
+
+
+def test_load_under_a_coefficient_that_varies():
+    """k = 1 + xy, u = x + y**2: f = -div(k grad u) = -(y + 2 (1 + xy) + 2 xy)."""
+    exact, (x, y) = read_exact({"u": "x + y**2"}, Formula("1 + x*y")), inside()
+    np.testing.assert_allclose(exact.load(x, y), -(y + 2 * (1 + x * y) + 2 * x * y), rtol=4 * EPS)
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_rates_under_a_coefficient_that_varies(element):
+    statement = ProblemStatement.from_mapping(
+        {
+            "domain": {"origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"},
+            "boundary": {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"},
+            "data": {"coefficient": "1 + x*y"},
+            "load_quadrature": "exact",
+            "truth": {"kind": "exact", "u": "1 + sin(x)*y**2"},
+        }
+    )
+    errors = []
+    for n in (8, 16, 32):
+        problem = discretize(statement, element, n)
+        errors.append(ExactErrors(statement.exact, ["l2"]).of(problem.mesh, element, solve(problem).u)["l2"])
+    np.testing.assert_allclose(np.log2(errors[0] / errors[1]), 2, atol=0.1)
+    np.testing.assert_allclose(np.log2(errors[1] / errors[2]), 2, atol=0.05)

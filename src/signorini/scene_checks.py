@@ -5,7 +5,7 @@ import sys
 from itertools import pairwise
 
 from signorini.boundary import LABELS, SIDES, by_formula
-from signorini.cells import count_cells
+from signorini.cell_counts import count_cells
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.norms import CONTACT

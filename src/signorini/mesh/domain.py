@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.boundary import LABELS, SIDES, by_formula
-from signorini.cells import count_cells
+from signorini.cell_counts import count_cells
 from signorini.exceptions import MeshError
 from signorini.memory import GRID, MESH, check_memory
 from signorini.mesh.grid import CORNERS, Grid

@@ -17,6 +17,7 @@ sys.path.insert(0, str(SOURCE.resolve()))
 # The python3 of a job is the one that runs Snakemake.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]))
 
+from signorini.boundary import labels_of
 from signorini.exceptions import SignoriniError
 from signorini.norms import RATED
 from signorini.scene import check_name, read_scene
@@ -261,7 +262,7 @@ def shown(wildcards):
     """What the figures of a scene show: the field, and as far as there are any the contact line, errors and slopes."""
     document = scene(wildcards.scene).document
     files = {"field": "field.npz"}
-    if "contact" in document["boundary"] or "contact" in document["boundary"].values():
+    if "contact" in labels_of(document["boundary"]):
         files |= {"line": "contact_line.csv"}
     if drawn_norms(document):
         files |= {"errors": "errors.csv", "rates": "rates.csv"}

@@ -86,7 +86,7 @@ def import_mesh(path, limit=MAX_BYTES):
     names = json.loads(str(raw["names"]))
     parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
     regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
-    return NamedMesh(p, t, parts, regions, path.name)
+    return NamedMesh(p, t, parts, regions, path.name, names["note"])
 
 
 def resolve_mesh_path(path, root, base=None):

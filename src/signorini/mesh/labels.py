@@ -30,6 +30,8 @@ class NamedMesh:
         Triangles in each named part of the domain.
     source : str
         Where the mesh comes from, for messages.
+    note : str
+        Why parts may be missing, for messages; empty if nothing is known.
     """
 
     p: np.ndarray
@@ -37,6 +39,7 @@ class NamedMesh:
     parts: dict = field(default_factory=dict)
     regions: dict = field(default_factory=dict)
     source: str = "mesh"
+    note: str = ""
 
     @cached_property
     def _facets(self):

@@ -11,10 +11,12 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.child import one_line
+from signorini.mesh.gmsh import physical_names, read_msh, version
+from signorini.mesh.inflate import HDF5, check_hdf5, counted_vtu, most
 
 _XML = (".vtu", ".xdmf", ".xmf", ".xml")
 _WIDTHS = {"line": 2, "triangle": 3}
-_MARKERS = ("gmsh:physical", "medit:ref", "su2:tag")
+_MARKERS = ("gmsh:physical", "medit:ref", "su2:tag", "cell_tags")
 _NEVER_PLANE = ("tetgen", "flac3d", "svg")
 _MAX_GROUPS = 1000
 _DECLARATION = re.compile(rb"(<|&lt;|&#0*60;|&#x0*3c;)!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
@@ -32,38 +34,47 @@ def parse(path):
     -------
     dict of ndarray
         ``points`` (nv, 2 or 3), ``line`` (k, 2), ``triangle`` (nt, 3); ``names``, a JSON text with the names of the
-        groups of lines and of triangles; ``line_0``, ``triangle_0``, ...: the cells in each group.
+        groups of lines and of triangles, and a ``note`` on what became of them, or ""; ``line_0``, ``triangle_0``,
+        ...: the cells in each group.
 
     Raises
     ------
     MeshError
-        If meshio cannot read the file, or it holds other cells than points, lines and triangles.
+        If the file cannot be read, or it holds other cells than points, lines and triangles.
     """
     path = Path(path)
-    _refuse_hostile(path, path.read_bytes())
     try:
-        return _reduced(path, _read(path))
-    except MeshError:
-        raise
+        content = path.read_bytes()
+        _refuse_hostile(path, content)
+        return _arrays(*(_own if _is_msh4(path, content) else _reduced)(path, content))
     except ModuleNotFoundError as error:
         raise MeshError(f"{path.name}: reading it needs the Python package {error.name}; install it") from None
     except (MemoryError, RecursionError):
         raise MeshError(f"{path.name}: asks for more memory than its size explains; write the file anew") from None
+    except MeshError as error:
+        raise MeshError(f"{path.name}: {error}") from None
     except (Exception, SystemExit) as error:  # meshio raises anything, down to SystemExit
-        reason = "" if isinstance(error, SystemExit) else f" ({type(error).__name__}: {one_line(error)[:120]})"
-        remedy = "put all cells into physical groups, or none" if "gmsh:physical" in reason else "write the file anew"
-        raise MeshError(f"{path.name}: meshio cannot read it{reason}; {remedy}") from None
+        raise MeshError(f"{path.name}: meshio cannot read it{_reason(error)}; {_remedy(error)}") from None
+
+
+def _reason(error):
+    return "" if isinstance(error, SystemExit) else f" ({type(error).__name__}: {one_line(error)[:120]})"
+
+
+def _remedy(error):
+    if "gmsh:physical" in str(error) or "cell_tags" in str(error):
+        return "put all cells into physical groups, or none"
+    return "write the file anew"
 
 
 def _refuse_hostile(path, content):
     """Refuse declarations of a document type or of entities (bombs, reads of other files), and other includes."""
     if path.suffix.lower() in _XML:
         if _DECLARATION.search(content) or _declares_doctype(content):
-            raise MeshError(f"{path.name}: declares a DOCTYPE or ENTITY, which no mesh needs; remove the declaration")
-        if path.suffix.lower() in (".xdmf", ".xmf"):
-            _refuse_references(path, content)
+            raise MeshError("declares a DOCTYPE or ENTITY, which no mesh needs; remove the declaration")
+        _referenced(path, content)
     elif path.suffix.lower() == ".inp" and _INCLUDE.search(content):
-        raise MeshError(f"{path.name}: includes another file; put the whole mesh into one")
+        raise MeshError("includes another file; put the whole mesh into one")
 
 
 def _declares_doctype(content):
@@ -83,70 +94,194 @@ def _declares_doctype(content):
     return True in found
 
 
-def _refuse_references(path, content):
-    """An .xdmf may keep its arrays in an HDF5 file beside it, under a plain name, and nowhere else."""
+def _referenced(path, content):
+    """The HDF5 files that an .xdmf may keep its arrays in: beside it, under plain names, and nowhere else."""
+    if path.suffix.lower() not in (".xdmf", ".xmf"):
+        return []
     try:
         items = list(ElementTree.fromstring(content).iter("DataItem"))
     except ElementTree.ParseError as error:
-        raise MeshError(f"{path.name}: not well-formed XML ({error}); write the file anew") from None
+        raise MeshError(f"not well-formed XML ({error}); write the file anew") from None
+    names = {}
     for item in items:
         form, name = item.get("Format", "XML"), (item.text or "").split(":")[0].strip()
         plain = re.fullmatch(r"\w[\w.-]*", name) and not (path.parent / name).is_symlink()
         if form != "XML" and not (form == "HDF" and plain):
-            raise MeshError(f"{path.name}: takes data from {name[:60]!r}; keep them inline, or in .h5 beside it")
+            raise MeshError(f"takes data from {name[:60]!r}; keep them inline, or in .h5 beside it")
+        if form == "HDF":
+            names[name] = path.parent / name
+    return [file for file in names.values() if file.is_file()]
 
 
-def _read(path):
+def _is_msh4(path, content):
+    """Whether it is Gmsh's format 4.1, which meshio does not read whole. Version 4.0 was of one year."""
+    number = version(content[:100_000]) if path.suffix.lower() == ".msh" else ""
+    if number.startswith("4") and number not in ("4", "4.1"):
+        raise MeshError(f"MSH {number} is not supported; save it as 4.1 (gmsh {path.name} -save -format msh41)")
+    return number in ("4", "4.1")
+
+
+def _own(path, content):
+    """Points, cells and groups of a Gmsh file of version 4.1."""
+    points, cells, tags = read_msh(content)
+    titles = physical_names(content)
+    groups = {kind: _Groups() for kind in _WIDTHS}
+    for kind, found in groups.items():
+        for number, members in tags[kind].items():
+            found.add_physical(number, members, titles, _WIDTHS[kind] - 1)
+    return points, cells, groups, ""
+
+
+def _read(path, content):
     import meshio
 
     suffix = path.suffix.lower()
     known = {end for end, kinds in meshio.extension_to_filetypes.items() if kinds[0] not in _NEVER_PLANE}
     kinds = meshio.extension_to_filetypes[suffix] if suffix in known else []
     if suffix == ".msh":
-        kinds = ["gmsh" if path.read_bytes()[:512].lstrip().startswith(b"$") else "ansys"]
+        kinds = ["gmsh" if content[:512].lstrip().startswith(b"$") else "ansys"]
     if not kinds:
-        raise MeshError(f"{path.name}: unknown kind of mesh file {suffix!r}; known: {' '.join(sorted(known))}")
-    return meshio.read(path, file_format=kinds[0])
+        raise MeshError(f"unknown kind of mesh file {suffix[:40]!r}; known: {' '.join(sorted(known))}")
+    archives = [path] if suffix in HDF5 else _referenced(path, content)
+    limit = most(len(content) + sum(file.stat().st_size for file in archives if file != path))
+    for file in archives:
+        check_hdf5(file, limit)
+    with counted_vtu(limit) if suffix == ".vtu" else contextlib.nullcontext():
+        return meshio.read(path, file_format=kinds[0])
 
 
-def _reduced(path, mesh):
-    """Points, lines and triangles with the names of their groups."""
+def _reduced(path, content):
+    """Points, cells and groups of whatever meshio reads."""
+    mesh = _read(path, content)
+    _refuse_other_cells(mesh)
+    titles = physical_names(content) if path.suffix.lower() == ".msh" else _titles(mesh)
+    cells, groups = {}, {}
+    for kind, width in _WIDTHS.items():
+        blocks = [k for k, block in enumerate(mesh.cells) if block.type == kind]
+        parts = [np.asarray(mesh.cells[k].data).reshape(-1, width).astype(np.int64) for k in blocks]
+        data, sets = _integer_data(mesh, blocks), _cell_sets(mesh, blocks)
+        entities = data.pop("gmsh:geometrical", 0)
+        cells[kind], same = _merged(np.concatenate([np.zeros((0, width), dtype=np.int64), *parts]), entities, data)
+        groups[kind] = _groups(data, sets, titles, _families(mesh), width - 1, same)
+    return np.asarray(mesh.points, dtype=np.float64), cells, groups, _note(mesh)
+
+
+def _arrays(points, cells, groups, note):
+    """What `parse` returns."""
+    arrays, names = {"points": points} | cells, {"note": note}
+    for kind, found in groups.items():
+        members = found.resolved()
+        names[kind] = list(members)
+        arrays |= {f"{kind}_{k}": numbers for k, numbers in enumerate(members.values())}
+    return arrays | {"names": np.array(json.dumps(names))}
+
+
+def _refuse_other_cells(mesh):
     others = {}
     for block in mesh.cells:
         if block.type not in (*_WIDTHS, "vertex"):
             others[block.type] = others.get(block.type, 0) + len(block.data)
     if others:
-        listed = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
-        raise MeshError(f"{path.name}: holds {listed}; only triangles of three vertices (order 1) are supported")
-    arrays, names = {"points": np.asarray(mesh.points, dtype=np.float64)}, {}
-    for kind, width in _WIDTHS.items():
-        blocks = [k for k, block in enumerate(mesh.cells) if block.type == kind]
-        cells = [np.asarray(mesh.cells[k].data).reshape(-1, width) for k in blocks]
-        arrays[kind] = np.concatenate(cells).astype(np.int64) if cells else np.zeros((0, width), dtype=np.int64)
-        groups = _groups(mesh, blocks, dimension=width - 1)
-        names[kind] = list(groups)
-        arrays |= {f"{kind}_{k}": members for k, members in enumerate(groups.values())}
-    return arrays | {"names": np.array(json.dumps(names))}
+        listed = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items())[:5])
+        raise MeshError(f"holds {listed}; only triangles of three vertices (order 1) are supported")
 
 
-def _groups(mesh, blocks, dimension):
-    """Name -> numbers of the cells in that group, from the cell sets and integer cell data of some blocks."""
-    found = {}
+class _Groups:
+    """Groups of cells, by name and by number: a name that is also another group's number is kept apart from it."""
+
+    def __init__(self):
+        self._members = {}
+
+    def add(self, origin, text, members):
+        """Cells that belong to a group; the origin is "name" or "number"."""
+        if len(members):
+            self._members.setdefault((text, origin), []).append(members)
+
+    def add_physical(self, number, members, titles, dimension):
+        """A physical group of Gmsh under its names and its number."""
+        for title in (name for *key, name in titles if key == [dimension, number]):
+            self.add("name", title, members)
+        self.add("number", str(number), members)
+
+    def resolved(self):
+        """Text to write in a scene -> its cells, increasing."""
+        found = {key: np.unique(np.concatenate(parts)).astype(np.int64) for key, parts in self._members.items()}
+        clash = {text for text, origin in found if origin == "name" and not _agree(found, text)}
+        return {f"{origin}={text}" if text in clash else text: cells for (text, origin), cells in found.items()}
+
+
+def _agree(found, text):
+    """Whether a name and a number that read the same, if there are both, are the same cells."""
+    cells = found[text, "name"]
+    return np.array_equal(found.get((text, "number"), cells), cells)
+
+
+def _groups(data, sets, titles, families, dimension, same):
+    """The groups of one kind of cell; `same` is the number of each cell once equal ones are merged."""
+    found = _Groups()
+    for name, members in sets.items():
+        found.add("name", name, same[members])
+    for name, values in data.items():
+        plain = len(data) == 1 or name in _MARKERS
+        for value in map(int, np.unique(values)[:_MAX_GROUPS]):
+            members = same[np.flatnonzero(values == value)]
+            if name == "gmsh:physical":
+                found.add_physical(value, members, titles, dimension)
+                continue
+            for title in families.get(value, ()) if name == "cell_tags" else ():
+                found.add("name", title, members)
+            found.add("number", str(value) if plain else f"{name}={value}", members)
+    return found
+
+
+def _merged(cells, entities, data):
+    """The cells without repetition, and the new number of each.
+
+    MSH 2.2 writes a cell of several groups once for each of them. The same cell twice in one group is an error, which
+    is left for the check of the mesh to find.
+    """
+    numbers = np.arange(len(cells))
+    if len(cells) == 0 or cells.shape[1] != 3 or "gmsh:physical" not in data:
+        return cells, numbers
+    rows = np.column_stack([entities + 0 * numbers, cells])
+    unique, first, same = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    same = same.ravel()
+    in_group = np.column_stack([same, data["gmsh:physical"]])
+    if len(unique) == len(rows) or len(np.unique(in_group, axis=0)) < len(rows):
+        return cells, numbers
+    order = np.sort(first)
+    return cells[order], np.searchsorted(order, first)[same]
+
+
+def _titles(mesh):
+    """Names of physical groups that another format than Gmsh's has kept."""
+    found = [(name, np.ravel(tag)) for name, tag in mesh.field_data.items() if np.size(tag) == 2]
+    return [(int(tag[1]), int(tag[0]), name) for name, tag in found if np.all(np.isfinite(tag.astype(float)))]
+
+
+def _families(mesh):
+    """Number of a family of a .med file -> names of the groups that its cells are in."""
+    return {int(number): names for number, names in getattr(mesh, "cell_tags", {}).items()}
+
+
+def _note(mesh):
+    """What to say if a group is not found, where Gmsh has dropped them."""
+    tags = mesh.cell_data.get("gmsh:physical", [])
+    if not any(len(values) for values in tags) or any(np.any(values) for values in tags):
+        return ""
+    return "all its cells are in group 0, as with Mesh.SaveAll = 1 in Gmsh; set Mesh.SaveAll = 0 and save it again"
+
+
+def _cell_sets(mesh, blocks):
+    """Name -> numbers of the cells in that set, counted over some blocks."""
     offsets = np.cumsum([0, *(len(mesh.cells[k].data) for k in blocks)])
+    found = {}
     for name, sets in mesh.cell_sets.items():
         if not name.startswith("gmsh:"):
             chosen = [(start, sets[k]) for start, k in zip(offsets[:-1], blocks, strict=True) if sets[k] is not None]
-            _add(found, name, [start + np.asarray(members) for start, members in chosen])
-    tags = _integer_data(mesh, blocks)
-    titles = {int(tag[0]): name for name, tag in mesh.field_data.items() if np.size(tag) == 2 and tag[1] == dimension}
-    for name, values in tags.items():
-        plain = len(tags) == 1 or name in _MARKERS
-        for value in map(int, np.unique(values)[:_MAX_GROUPS]):
-            members = [np.flatnonzero(values == value)]
-            if name == "gmsh:physical" and value in titles:
-                _add(found, titles[value], members)
-            _add(found, str(value) if plain else f"{name}={value}", members)
-    return {name: np.unique(np.concatenate(members).astype(np.int64)) for name, members in found.items()}
+            parts = [start + np.asarray(members, dtype=np.int64) for start, members in chosen]
+            found[name] = np.concatenate([np.zeros(0, dtype=np.int64), *parts])
+    return found
 
 
 def _integer_data(mesh, blocks):
@@ -154,11 +289,6 @@ def _integer_data(mesh, blocks):
     found = {}
     for name, data in mesh.cell_data.items():
         parts = [np.asarray(data[k]) for k in blocks]
-        if name != "gmsh:geometrical" and parts and all(v.dtype.kind in "iub" and v.size == len(v) for v in parts):
+        if parts and all(v.dtype.kind in "iub" and v.size == len(v) for v in parts):
             found[name] = np.concatenate([v.ravel() for v in parts])
     return found
-
-
-def _add(found, name, members):
-    if sum(map(len, members)):
-        found.setdefault(name, []).extend(members)

@@ -37,7 +37,7 @@ def _check_rectangle(domain):
     _check_finite("domain.size", domain["size"])
     for side in domain["size"]:
         if side <= 0:
-            raise SceneError(f"domain.size: {side} is not valid; it must be finite, positive")
+            raise SceneError(f"domain.size: {shown(side)} is not valid; it must be finite, positive")
 
 
 def _check_polygon(domain):
@@ -95,6 +95,12 @@ def _check_boundary(boundary, names):
 
 def _check_boundary_formulas(boundary):
     rest = [label for label, text in boundary.items() if text == "rest"]
+    if any(name in LABELS and label in LABELS for name, label in boundary.items()):
+        name, label = next(item for item in boundary.items() if item[1] not in LABELS)
+        raise SceneError(
+            f"boundary.{name}: {shown(label)} is no label, but other values are; {nearest(label, LABELS)}; or, if "
+            "no part of the boundary has a label for its name, give every label a formula"
+        )
     for label, text in boundary.items():
         if label not in LABELS:
             raise SceneError(
@@ -109,7 +115,7 @@ def _check_boundary_formulas(boundary):
 
 def _check_levels(levels):
     if any(b <= a for a, b in pairwise(levels)):
-        raise SceneError(f"levels: {levels} is not increasing; list each level once, coarsest first")
+        raise SceneError(f"levels: {shown(levels)} is not increasing; list each level once, coarsest first")
 
 
 def _check_truth(document):

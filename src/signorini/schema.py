@@ -4,8 +4,11 @@ import copy
 import difflib
 import json
 from functools import cache
+from itertools import islice
 
 from signorini.exceptions import SceneError
+
+_WIDTH = 60  # of a value that is shown
 
 
 def validated(document, schema, source):
@@ -78,43 +81,68 @@ def _fill(document, schema):
 
 
 def _explain(error, schema):
-    field = ".".join(str(part) for part in error.absolute_path)
+    field = _name(error.absolute_path)
+    below = f"{field}." if field else ""
     if error.validator == "additionalProperties":
         known = list(error.schema["properties"])
         key = next(key for key in error.instance if key not in known)
-        name = key if key.isprintable() and len(key) <= 60 else shown(key)
         homes = [section for section, part in schema["properties"].items() if key in part.get("properties", {})]
         if homes and not field:
-            return f"{name}: unknown key here; it belongs into the section {' or '.join(homes)}"
-        return f"{field + '.' if field else ''}{name}: unknown key; {nearest(key, known)}"
+            return f"{_name([key])}: unknown key here; it belongs into the section {' or '.join(homes)}"
+        return f"{below}{_name([key])}: unknown key; {nearest(key, known)}"
     if error.validator == "required":
         missing = next(key for key in error.validator_value if key not in error.instance)
-        return f"{field + '.' if field else ''}{missing}: missing; add it ({_describe(error.schema, missing)})"
-    remedy = {
-        "enum": lambda: nearest(error.instance, [str(v) for v in error.validator_value]),
-        "oneOf": lambda: f"expected {_alternatives(error.schema)}",
-        "type": lambda: f"expected {_named_types(error.validator_value)}",
-        "minimum": lambda: f"must be at least {error.validator_value}",
-        "maximum": lambda: f"must be at most {error.validator_value}",
-        "minItems": lambda: f"needs at least {_entries(error.validator_value)}",
-        "maxItems": lambda: f"takes at most {_entries(error.validator_value)}",
-        "pattern": lambda: f"use {error.schema.get('description', error.validator_value)}",
+        return f"{below}{missing}: missing; add it ({_describe(error.schema, missing)})"
+    if "propertyNames" in error.absolute_schema_path:
+        return f"{below}{_name([error.instance])}: not a valid key; {_remedy(error)}"
+    return f"{field}: {shown(error.instance)} is not valid; {_remedy(error)}"
+
+
+def _name(path):
+    """The place of a value, its parts joined by dots; a part that is long or unprintable is shown as JSON."""
+    return ".".join(str(part) if str(part).isprintable() and len(str(part)) <= _WIDTH else shown(part) for part in path)
+
+
+def _remedy(error):
+    value, bound = error.instance, error.validator_value
+    return {
+        "enum": lambda: nearest(value, [str(v) for v in bound]),
+        "oneOf": lambda: _too_long(value, error.schema["oneOf"]) or f"expected {_alternatives(error.schema)}",
+        "type": lambda: f"expected {_named_types(bound)}",
+        "minimum": lambda: f"must be at least {bound}",
+        "maximum": lambda: f"must be at most {bound}",
+        "exclusiveMinimum": lambda: f"must be greater than {bound}",
+        "exclusiveMaximum": lambda: f"must be less than {bound}",
+        "minItems": lambda: f"needs at least {_entries(bound)}",
+        "maxItems": lambda: f"takes at most {_entries(bound)}",
+        "minLength": lambda: "it is empty; write something",
+        "maxLength": lambda: _too_long(value, [error.schema]),
+        "minProperties": lambda: "it is empty; write 'key: value' lines",
+        "pattern": lambda: f"use {error.schema.get('description', bound)}",
         "uniqueItems": lambda: "list each entry once",
-    }.get(error.validator, lambda: error.message)()
-    return f"{field}: {shown(error.instance)} is not valid; {remedy}"
+    }.get(error.validator, lambda: error.message[:200])()
+
+
+def _too_long(value, alternatives):
+    """What to say of a text beyond the length that its schema allows; empty if it is none."""
+    most = max((part["maxLength"] for part in alternatives if "maxLength" in part), default=None)
+    if most is None or not isinstance(value, str) or len(value) <= most:
+        return ""
+    return f"it has {len(value)} characters, more than {most}; shorten it"
 
 
 _TYPES = {
     "integer": "a whole number",
     "number": "a number",
     "string": "text",
+    "boolean": "true or false",
     "array": "a list, [a, b, ...]",
     "object": "a section of 'key: value' lines",
 }
 
 
 def _named_types(names):
-    return " or ".join(_TYPES[name] for name in ([names] if isinstance(names, str) else names))
+    return " or ".join(_TYPES.get(name, name) for name in ([names] if isinstance(names, str) else names))
 
 
 def _entries(count):
@@ -133,12 +161,32 @@ def _describe(schema, key):
 
 
 def shown(value):
-    """A value as JSON, cut to 60 characters."""
-    text = json.dumps(value, default=str, ensure_ascii=False)
-    return text if len(text) <= 60 else text[:57] + "..."
+    """A value as JSON, cut to 60 characters; of a long list or text only the beginning is looked at."""
+    text = json.dumps(_beginning(value), default=lambda _: "...", ensure_ascii=False)
+    return text if len(text) <= _WIDTH else f"{text[: _WIDTH - 3]}..."
+
+
+def _beginning(value, deep=4):
+    if isinstance(value, str):
+        return value[: _WIDTH + 1]
+    if isinstance(value, int) and abs(value) >= 10**_WIDTH:
+        return "a number of more than 60 digits"
+    if deep and isinstance(value, list):
+        return [_beginning(entry, deep - 1) for entry in value[:_WIDTH]]
+    if deep and isinstance(value, dict):
+        return {_beginning(str(key)): _beginning(entry, deep - 1) for key, entry in islice(value.items(), _WIDTH)}
+    return value if isinstance(value, int | float | None) else "..."
 
 
 def nearest(word, known):
-    """A hint: the nearest of the known words, and all of them."""
-    near = difflib.get_close_matches(str(word), known, n=1, cutoff=0.5)
-    return (f"did you mean {near[0]}? " if near else "") + f"known: {', '.join(known)}"
+    """A hint: the nearest of the known words, and the first 40 of them."""
+    known = list(known)
+    near = difflib.get_close_matches(str(word)[:200], known, n=1, cutoff=0.5)
+    return (f"did you mean {near[0]}? " if near else "") + f"known: {listed(known)}"
+
+
+def listed(names, most=40):
+    """Names with commas between them, at most so many, each at most 60 characters long."""
+    names = list(names)
+    texts = [name if len(name) <= _WIDTH else f"{name[: _WIDTH - 3]}..." for name in names[:most]]
+    return ", ".join(texts) + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -34,7 +34,8 @@ class BySubdomain:
         low, high = COEFFICIENTS
         for name, number in self.numbers.items():
             if not low <= number <= high:
-                raise SceneError(f"{self.field}.{name}: {number} is not valid; it must be from {low:g} to {high:g}")
+                place = f"{self.field}.{name[:60]}"
+                raise SceneError(f"{place}: {number} is not valid; it must be from {low:g} to {high:g}")
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,11 @@ import yaml
 from signorini.exceptions import SceneError
 
 _MAX_BYTES = 100_000
+_WIDTH = 60  # of a word that is shown
+
+
+def _cut(text, width=_WIDTH):
+    return text if len(text) <= width else f"{text[: width - 3]}..."
 
 
 class _Loader(yaml.SafeLoader):
@@ -23,7 +28,10 @@ class _Loader(yaml.SafeLoader):
             )
         if getattr(self.peek_event(), "tag", None) is not None:
             raise yaml.constructor.ConstructorError(
-                None, None, f"tags ({self.peek_event().tag}) are not supported; drop it", self.peek_event().start_mark
+                None,
+                None,
+                f"tags ({_cut(self.peek_event().tag)}) are not supported; drop it",
+                self.peek_event().start_mark,
             )
         return super().compose_node(parent, index)
 
@@ -36,7 +44,7 @@ class _Loader(yaml.SafeLoader):
                 raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
             if key in seen:
                 raise yaml.constructor.ConstructorError(
-                    None, None, f"duplicate key {key!r}; keep one of the two", key_node.start_mark
+                    None, None, f"duplicate key {_cut(key)!r}; keep one of the two", key_node.start_mark
                 )
             seen[key] = None
         return super().construct_mapping(node, deep)
@@ -58,9 +66,8 @@ def _float(loader, node):
     except ValueError:
         return text
     if not math.isfinite(value):
-        shown = text if len(text) <= 20 else text[:17] + "..."
         raise yaml.constructor.ConstructorError(
-            None, None, f"number {shown} is out of range; a double holds up to 1.8e308", node.start_mark
+            None, None, f"number {_cut(text, 20)} is out of range; a double holds up to 1.8e308", node.start_mark
         )
     return value
 
@@ -105,8 +112,8 @@ def load_yaml(path):
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        problem = error.problem or "malformed YAML"
+        problem = _cut(error.problem or "malformed YAML", 200)
         remedy = "" if "; " in problem else "; mend this line"
         raise SceneError(f"{path}: {place}{problem}{remedy}") from error
     except (yaml.YAMLError, RecursionError) as error:
-        raise SceneError(f"{path}: malformed YAML ({str(error).splitlines()[0]})") from error
+        raise SceneError(f"{path}: malformed YAML ({_cut(str(error).splitlines()[0], 200)})") from error

@@ -5,11 +5,16 @@ import os
 import re
 import shutil
 import sys
-from datetime import date
 from contextlib import suppress
+from datetime import date
 from functools import cache
 from pathlib import Path
 from shlex import quote
+
+PROJECT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
+if Path.cwd().resolve() != PROJECT.resolve():
+    # Every path is relative to the project's folder: to find scenes, and not to tie results to a machine.
+    sys.exit("error: start Snakemake in the project's folder: cd {0}, or add --directory {0}".format(quote(str(PROJECT))))
 
 SOURCE = Path("src")
 SCRIPTS = Path("workflow/scripts")
@@ -24,6 +29,7 @@ from signorini.scene import check_name, read_scene
 from signorini.schema import nearest, validated
 from signorini.strict_yaml import load_yaml
 
+CONFIG_FILE = "config/config.yaml"
 NAME = "[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
 PUBLISHED = "config/published/table_5_1.csv"
 LATEX = shutil.which("latexmk") and shutil.which("pdflatex")
@@ -49,12 +55,19 @@ def truth_value(value):
 
 @reported
 def check_config():
-    """config.yaml, read strictly, under what the command line says."""
-    source = "config/config.yaml"
-    document = load_yaml(source)
-    if isinstance(document, dict):
-        document |= {key: truth_value(value) for key, value in config.items()}
-    return validated(document, load_yaml("workflow/schemas/config.schema.yaml"), source)
+    """config.yaml, read strictly, under what the command line says; each is answerable for its own."""
+    schema = load_yaml("workflow/schemas/config.schema.yaml")
+    document = validated(load_yaml(CONFIG_FILE), schema, CONFIG_FILE)
+    for key, value in config.items():
+        document[key] = validated({key: truth_value(value)}, schema, where_asked(key))[key]
+    return document
+
+
+def where_asked(key):
+    """Where the value of a key comes from, for messages."""
+    if key not in config:
+        return CONFIG_FILE
+    return "--config" if key in workflow.config_settings.config else "--configfile"
 
 
 @reported
@@ -95,7 +108,8 @@ def written(name):
     check_name(name)
     path = Path("config/scenes", f"{name}.yaml")
     if not path.is_file():
-        raise SignoriniError(f"scenes: there is no {path}; {nearest(name, known_scenes())}")
+        place = f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
+        raise SignoriniError(f"{place}: there is no {path}; {nearest(name, known_scenes())}")
     return read_scene(path)
 
 

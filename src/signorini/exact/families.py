@@ -76,11 +76,11 @@ def family(name, parameters=None, field="truth"):
     (0.0, 0.3333333333333333)
     """
     if name not in FAMILIES:
-        raise SceneError(f"{field}.family: unknown family {name!r}; {nearest(name, FAMILIES)}")
+        raise SceneError(f"{field}.family: unknown family {name[:60]!r}; {nearest(name, FAMILIES)}")
     known, given = FAMILIES[name].parameters, parameters or {}
     for key in given:
         if key not in known:
-            raise SceneError(f"{field}.parameters: {name} has no parameter {key!r}; {nearest(key, known)}")
+            raise SceneError(f"{field}.parameters: {name} has no parameter {key[:60]!r}; {nearest(key, known)}")
     values = {
         key: parameter.read(given.get(key, parameter.default), f"{field}.parameters.{key}")
         for key, parameter in known.items()

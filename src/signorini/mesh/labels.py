@@ -10,6 +10,7 @@ from signorini.boundary import LABELS, SIDES
 from signorini.exceptions import MeshError
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.triangulation import Triangulation
+from signorini.schema import listed
 
 _SHOWN = 5
 
@@ -116,16 +117,19 @@ def label_boundary(mesh, rules):
     >>> [(label, facets.size) for label, facets in label_boundary(mesh, rules).items()]
     [('contact', 2), ('dirichlet', 2), ('neumann', 2)]
     """
-    labels = {}
+    labels, taken = {}, []
     for selector, label in rules.items() if isinstance(rules, dict) else rules:
         if label not in LABELS:
-            raise MeshError(f"boundary: unknown label {label!r} for {_named(selector)}; known: {', '.join(LABELS)}")
+            known = ", ".join(LABELS)
+            raise MeshError(f"boundary: unknown label {_quoted(str(label))} for {_named(selector)}; known: {known}")
         selected = _by_formula(mesh, selector) if callable(selector) else _by_part(mesh, str(selector))
         labels[label] = labels.get(label, False) | selected
+        taken.append((selector, label, selected))
     times = np.sum([np.zeros(mesh.boundary.size, dtype=int), *labels.values()], axis=0)
-    for wrong, count in ((times == 0, "no label"), (times > 1, "more than one label")):
-        if wrong.any():
-            raise MeshError(_complaint(mesh, wrong, count))
+    if np.any(times == 0):
+        raise MeshError(_complaint(mesh, times == 0, "no label"))
+    if np.any(times > 1):
+        raise MeshError(_complaint(mesh, times > 1, "more than one label", _overlap(taken, int(np.argmax(times > 1)))))
     return {label: mesh.boundary[selected] for label, selected in labels.items()}
 
 
@@ -148,10 +152,7 @@ def _by_formula(mesh, formula):
 
 def _by_part(mesh, name):
     if name not in mesh.parts:
-        near = difflib.get_close_matches(name, mesh.parts, n=1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        known = ", ".join(list(mesh.parts)[:40]) or "none"
-        raise MeshError(f"boundary: {mesh.source} has no part {name!r}; its parts: {known}{hint}")
+        raise MeshError(f"boundary: {mesh.source} has no part {_quoted(name)}; {_missing(mesh, name)}")
     count = mesh.p.shape[1]
     keys, part = pair_keys(mesh.facets, count), mesh.parts[name]
     wanted = np.where(part.min(axis=0) >= 0, pair_keys(part, count), -1)
@@ -164,18 +165,43 @@ def _by_part(mesh, name):
             else ["a vertex", "another"]
         )
         why = "lies inside the domain" if wanted[k] in keys else "is no side of a triangle"
-        raise MeshError(f"boundary: part {name!r}: the line {ends[0]} to {ends[1]} {why}; take it out of the part")
+        line = f"the line {ends[0]} to {ends[1]}"
+        raise MeshError(f"boundary: part {_quoted(name)}: {line} {why}; take it out of the part")
     return np.isin(keys[mesh.boundary], wanted)
 
 
-def _complaint(mesh, wrong, count):
+def _missing(mesh, name):
+    """Which parts there are instead of the one that is asked for."""
+    if mesh.note:
+        return mesh.note
+    near = [part for part in (f"name={name}", f"number={name}") if part in mesh.parts]
+    near = near or difflib.get_close_matches(name[:200], mesh.parts, n=1)
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    formula = f"; or give {name} a formula, and every other label one" if name in LABELS and not near else ""
+    return f"its parts: {listed(mesh.parts) or 'none'}{hint}{formula}"
+
+
+def _overlap(taken, k):
+    """The rules that give different labels to one facet of the boundary, by its position there."""
+    given = [f"{_named(selector)} is {label}" for selector, label, selected in taken if selected[k]]
+    return f"; they overlap: at the first, {' and '.join(given[:4])}"
+
+
+def _complaint(mesh, wrong, count, why=""):
     numbers, (x, y) = mesh.boundary[wrong], mesh.midpoints[:, wrong]
-    shown = ", ".join(f"{k} at ({a:.6g}, {b:.6g})" for k, a, b in list(zip(numbers, x, y, strict=True))[:_SHOWN])
+    places = list(zip(numbers, x, y, strict=True))[:_SHOWN]
+    facets = ", ".join(f"{k} at ({a:.6g}, {b:.6g})" for k, a, b in places)
     more = f" and {numbers.size - _SHOWN} more" if numbers.size > _SHOWN else ""
-    names = ", ".join(list(mesh.parts)[:20])
-    remedy = "each needs exactly one of " + ", ".join(LABELS) + (f"; parts: {names}" if names else "")
-    return f"boundary: {numbers.size} boundary facets of {mesh.source} have {count}: facet {shown}{more}; {remedy}"
+    parts = f"; parts: {listed(mesh.parts, 20)}" if mesh.parts else ""
+    wrong = f"{numbers.size} boundary facets of {mesh.source} have {count}"
+    return f"boundary: {wrong}: facet {facets}{more}{why}; each needs exactly one of {', '.join(LABELS)}{parts}"
 
 
 def _named(selector):
-    return f"the formula {getattr(selector, 'text', selector)!r}" if callable(selector) else f"part {selector!r}"
+    if callable(selector):
+        return f"the formula {_quoted(getattr(selector, 'text', str(selector)))}"
+    return f"part {_quoted(str(selector))}"
+
+
+def _quoted(text):
+    return repr(text if len(text) <= 60 else f"{text[:57]}...")

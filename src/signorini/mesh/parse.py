@@ -62,7 +62,7 @@ def _reason(error):
 
 
 def _remedy(error):
-    if "gmsh:physical" in str(error) or "cell_tags" in str(error):
+    if "Incompatible cell data" in str(error):
         return "put all cells into physical groups, or none"
     return "write the file anew"
 

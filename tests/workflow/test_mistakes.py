@@ -1,6 +1,8 @@
 """A user's mistake: one line that names the place, the value and the remedy, before anything is computed."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 from project import SMALL, Project, modules_of, side_by_side
@@ -132,10 +134,64 @@ def test_a_mesh_file_out_of_the_tree(fresh, path):
     assert not (fresh / "results").exists()
 
 
-def test_misspelt_scene_on_the_command_line(fresh):
-    run = fresh.run("--config", "scenes=[smal]")
-    assert run.code != 0
-    assert "did you mean small?" in run.errors[0]
+# What is typed after --config -> what the line says.
+TYPED = {
+    "scenes=[smal]": "--config: scenes: there is no config/scenes/smal.yaml; did you mean small?",
+    "scenes=small": '--config: scenes: "small" is not valid; expected a list, [a, b, ...]',
+    "scenes=[]": "--config: scenes: [] is not valid; needs at least 1 entry",
+    "scenes=[../x]": f'--config: scenes.0: "../x" is not valid; {NAME}',
+    "scenes=[1]": "--config: scenes: there is no config/scenes/1.yaml; ",
+    "scene=[small]": "--config: scene: unknown key; did you mean scenes?",
+    "quick=maybe": '--config: quick: "maybe" is not valid; expected true or false',
+    "quick=1": "--config: quick: 1 is not valid; expected true or false",
+    "quick=": "--config: quick: ",
+    "quick=[true]": "--config: quick: ",
+}
+
+
+@pytest.fixture(scope="module")
+def typed(tmp_path_factory):
+    """What is typed after --config -> the run."""
+    project = Project.fresh(tmp_path_factory.mktemp("typed") / "project")
+    return side_by_side(lambda text: project.run("--dry-run", "--nolock", "--config", text), TYPED)
+
+
+@pytest.mark.parametrize("text", TYPED)
+def test_mistake_on_the_command_line(typed, text):
+    """The file is not to blame."""
+    assert typed[text].code != 0
+    assert len(typed[text].errors) == 1, typed[text].text
+    assert typed[text].errors[0].startswith(f"error: {TYPED[text]}")
+    assert "config.yaml" not in typed[text].errors[0]
+    assert "Traceback" not in typed[text].text
+
+
+def test_mistake_in_another_configuration_file(fresh):
+    fresh.write("other.yaml", "quick: maybe\n")
+    run = fresh.run("--dry-run", "--configfile", "other.yaml")
+    assert run.errors == ['error: --configfile: quick: "maybe" is not valid; expected true or false'], run.text
+
+
+@pytest.mark.parametrize("value", ["true", "True", "false"])
+def test_truth_values_of_the_command_line(fresh, value):
+    run = fresh.build("--dry-run", "--config", f"quick={value}", "scenes=[small]")
+    assert not run.errors
+
+
+@pytest.mark.parametrize("file", ["Snakefile", "workflow/Snakefile"])
+def test_start_in_another_folder(fresh, tmp_path, file):
+    """It says where to start; with --directory it works."""
+    elsewhere = tmp_path / "else where"
+    elsewhere.mkdir()
+    command = [sys.executable, "-m", "snakemake", "--cores", "1", "--dry-run", "-s", f"../project/{file}"]
+    options = {"cwd": elsewhere, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "check": False}
+    refused = subprocess.run(command, **options)
+    assert refused.returncode != 0
+    remedy = f"cd {fresh.folder}, or add --directory {fresh.folder}"
+    assert f"error: start Snakemake in the project's folder: {remedy}\n" in refused.stdout
+    assert "Traceback" not in refused.stdout
+    told = subprocess.run([*command, "--directory", str(fresh.folder)], **options)
+    assert told.returncode == 0, told.stdout
 
 
 @pytest.mark.parametrize("kind", ["file", "dangling link", "read-only"])

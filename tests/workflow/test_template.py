@@ -1,4 +1,4 @@
-"""config/template.yaml: the scene that README says to start from. It names every key with its default, and it builds."""
+"""config/template.yaml, which README says to start from: it names every key with its default, and it builds."""
 
 import re
 
@@ -44,7 +44,7 @@ def test_it_names_every_key_with_its_default(written):
 
 
 def test_what_it_leaves_out_has_that_default(written, tmp_path):
-    set_there, everything = written
+    _, everything = written
     path = tmp_path / "mine.yaml"
     path.write_text(TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
     document = load_scene(path).document

@@ -14,7 +14,9 @@ from shlex import quote
 PROJECT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parents[1]
 if Path.cwd().resolve() != PROJECT.resolve():
     # Every path is relative to the project's folder: to find scenes, and not to tie results to a machine.
-    sys.exit("error: start Snakemake in the project's folder: cd {0}, or add --directory {0}".format(quote(str(PROJECT))))
+    sys.exit(
+        "error: start Snakemake in the project's folder: cd {0}, or add --directory {0}".format(quote(str(PROJECT)))
+    )
 
 SOURCE = Path("src")
 SCRIPTS = Path("workflow/scripts")

@@ -1,11 +1,13 @@
 """Groups of mesh files: all that a cell is in, by name and by number, in every format that knows them."""
 
+import doctest
 import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from signorini import boundary
 from signorini.coefficient import coefficient_on
 from signorini.exceptions import MeshError
 from signorini.mesh import imported
@@ -299,23 +301,27 @@ def test_version_4_0_gets_a_remedy(write):
 # Groups that are named as labels are
 
 
+def test_examples():
+    assert doctest.testmod(boundary).failed == 0
+
+
 LABELS = {"contact": "contact", "dirichlet": "dirichlet", "neumann": "neumann"}
 
 
-def domain(boundary):
+def domain(section):
     file = str(DATA / "groups_named_as_labels_41.msh")
-    return make_domain({"kind": "mesh", "file": file}, boundary, 1)
+    return make_domain({"kind": "mesh", "file": file}, section, 1)
 
 
 @pytest.mark.parametrize("turned", [False, True], ids=["as they read", "turned round"])
 def test_groups_may_be_named_as_labels_are(turned):
-    boundary = LABELS | ({"contact": "dirichlet", "dirichlet": "contact"} if turned else {})
-    lowest = domain(boundary).level(1)
+    section = LABELS | ({"contact": "dirichlet", "dirichlet": "contact"} if turned else {})
+    lowest = domain(section).level(1)
     sizes = {label: lowest.boundary_facets(label).size for label in LABELS}
     assert sizes == {"contact": 4, "dirichlet": 4, "neumann": 8}
     y = 1.0 if turned else 0.0
     assert (lowest.p[1, lowest.boundary_vertices("contact")] == y).all()
-    assert domain(boundary).level(2).boundary_facets("neumann").size == 16
+    assert domain(section).level(2).boundary_facets("neumann").size == 16
 
 
 def test_formulas_still_take_facets_of_such_a_file():

@@ -55,7 +55,7 @@ def _by_subdomain(mesh, coefficient):
     values, times = np.zeros(mesh.number_of_triangles), np.zeros(mesh.number_of_triangles, dtype=int)
     for name, number in coefficient.numbers.items():
         if name not in known:
-            raise MeshError(f"{field}.{name}: the mesh has no such subdomain; {nearest(name, known or ['none'])}")
+            raise MeshError(f"{field}.{name[:60]}: the mesh has no such subdomain; {nearest(name, known or ['none'])}")
         values[known[name]] = number
         times[known[name]] += 1
     for wrong, complaint in ((times == 0, _missing), (times > 1, _double)):

@@ -128,9 +128,11 @@ class _Text:
 
     def whole(self, count):
         numbers = self.real(count)
-        if not np.all(np.abs(numbers) < 2.0**53) or np.any(numbers % 1.0):
-            raise MeshError("a number that must be whole is not; write the file anew")
-        return numbers.astype(np.int64)
+        if np.all(np.abs(numbers) < 2.0**53):
+            whole = numbers.astype(np.int64)
+            if np.array_equal(whole, numbers):
+                return whole
+        raise MeshError("a number that must be whole is not; write the file anew")
 
     sizes = whole
 

@@ -54,8 +54,9 @@ def import_mesh(path, limit=MAX_BYTES):
     Returns
     -------
     NamedMesh
-        Its parts are the file's groups of lines, its regions the groups of triangles: cell sets (physical
-        groups) by name; integer cell data by value, as ``"3"``, or ``"name=3"`` where there are several.
+        Its parts are the file's groups of lines, its regions the groups of triangles, overlapping or not: cell sets and
+        physical groups by name; these and other integer cell data by value, as ``"3"``, or ``"marker=3"`` where there
+        are several. Where a group's name is another one's number they are ``"name=3"`` and ``"number=3"``.
 
     Raises
     ------
@@ -65,7 +66,7 @@ def import_mesh(path, limit=MAX_BYTES):
     Notes
     -----
     The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times the file's size, for 30 s
-    and 2 s per MB.
+    and 2 s per MB; what is compressed may hold 64 MiB and 50 times the file's size.
     """
     path = Path(path)
     size = _regular_size(path)

@@ -1,7 +1,7 @@
 """What holds where on the boundary: labels given to whole parts of it, by name or by the sign of a formula."""
 
 import difflib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -85,7 +85,7 @@ def with_sides(mesh):
     (x0, y0), (x1, y1) = mesh.p.min(axis=1), mesh.p.max(axis=1)
     on = {"bottom": mesh.p[1] == y0, "right": mesh.p[0] == x1, "top": mesh.p[1] == y1, "left": mesh.p[0] == x0}
     sides = {side: ends[:, on[side][ends].all(axis=0)] for side in SIDES}
-    return NamedMesh(mesh.p, mesh.t, sides | mesh.parts, mesh.regions, mesh.source)
+    return replace(mesh, parts=sides | mesh.parts)
 
 
 def label_boundary(mesh, rules):

@@ -1,5 +1,6 @@
 """Rectangles cut into triangles in other patterns than `Grid`, and meshes shaken or graded for studies."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -103,7 +104,7 @@ def perturbed(mesh, amount, seed):
     for ends in mesh.parts.values():
         vertices, times = np.unique(ends[ends >= 0], return_counts=True)
         move[:, vertices[times == 1]] = 0
-    return NamedMesh(mesh.p + move, mesh.t, mesh.parts, mesh.regions, mesh.source)
+    return replace(mesh, p=mesh.p + move)
 
 
 def graded(mesh, towards, exponent):

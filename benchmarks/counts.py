@@ -16,7 +16,7 @@ RECORD = ROOT / "tests/data/counts.csv"
 sys.path.insert(0, str(ROOT / "src"))
 
 import signorini  # noqa: E402 (needs the path above)
-from signorini.storage import read_csv, write_csv  # noqa: E402
+from signorini.storage import read_table, write_csv  # noqa: E402
 from signorini.studies.benchmark_counts import changes, count_scene  # noqa: E402
 
 
@@ -27,7 +27,7 @@ def main():
     write = parser.parse_args().write
     scenes = [signorini.load_scene(path) for path in sorted((ROOT / "config/scenes").glob("*.yaml"))]
     found = [row for scene in scenes for element in scene.elements for row in count_scene(scene, element)]
-    grown, shrunk = changes(read_csv(RECORD) if RECORD.is_file() else [], found)
+    grown, shrunk = changes(read_table(RECORD) if RECORD.is_file() else [], found)
     for title, lines in (("grown:", grown), ("shrunk:", shrunk)):
         print("\n  ".join([title, *(lines or ["none"])]))
     if write:

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 import signorini
-from signorini.storage import read_csv
+from signorini.storage import read_table
 from signorini.studies.benchmark_counts import changes, count_scene
 
 FOLDER = Path(__file__).parents[1] / "config" / "scenes"
-RECORD = read_csv(Path(__file__).parent / "data" / "counts.csv")
+RECORD = read_table(Path(__file__).parent / "data" / "counts.csv")
 REMEDY = "if on purpose: python benchmarks/counts.py --write, and commit tests/data/counts.csv with the reason"
 ROW = {"scene": "paper", "element": "P1", "method": "direct", "products": 5, "cycles": 0, "factorisations": 1} | {
     "steps": 10, "inner": 100, "bytes_per_unknown": 1000,

@@ -6,7 +6,18 @@ import numpy as np
 import pytest
 
 from signorini.exceptions import StorageError
-from signorini.storage import read_csv, read_npz, write_csv, write_npz, write_text
+from signorini.storage import (
+    digest_file,
+    read_csv,
+    read_json,
+    read_npz,
+    read_sealed,
+    read_table,
+    write_csv,
+    write_json,
+    write_npz,
+    write_text,
+)
 
 ARRAYS = {"u": np.linspace(0, 1, 9), "active": np.array([True, False]), "n": np.array(4), "element": np.array("P1")}
 ROWS = [{"element": "P1", "n": 2, "l2": 0.1 + 0.2, "h1": None}, {"element": "CR", "n": 4, "l2": 5e-324, "h1": 1.0}]
@@ -92,22 +103,82 @@ def test_tables_come_back_with_every_digit(tmp_path):
     assert read_csv(tmp_path / "a.csv", numbers=("n", "l2", "h1")) == ROWS
 
 
-def test_truncated_tables_are_refused_but_between_two_lines(tmp_path):
+def test_truncated_tables_are_refused(tmp_path):
+    """Without a digest, all but those that end between two lines."""
     path = tmp_path / "a.csv"
     write_csv(path, ROWS)
     content = path.read_bytes()
     header, first, _ = content.splitlines(keepends=True)
-    for length in set(range(len(content))) - {len(header + first)}:
+    for length in range(len(content)):
         rewrite(path, content[:length])
-        with pytest.raises(StorageError, match="not a readable table"):
+        with pytest.raises(StorageError, match=r"a\.csv: truncated or altered .*; delete it and rerun"):
             read_csv(path)
+        if length != len(header + first):
+            with pytest.raises(StorageError, match="not a readable table"):
+                read_table(path)
+
+
+WRITERS = {
+    "a.csv": (lambda path: write_csv(path, ROWS), read_csv),
+    "a.json": (lambda path: write_json(path, ROWS), read_json),
+    "a.tex": (lambda path: write_text(path, "0.10075495"), read_sealed),
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_a_changed_character_is_refused(tmp_path, name):
+    write, read = WRITERS[name]
+    path = tmp_path / name
+    write(path)
+    content = path.read_bytes()
+    for place in range(0, len(content), 7):
+        other = b"7" if content[place : place + 1] == b"1" else b"1"
+        rewrite(path, content[:place] + other + content[place + 1 :])
+        with pytest.raises(StorageError, match=f"{name}: truncated or altered"):
+            read(path)
+    rewrite(path, content)
+    read(path)
+    digest_file(path).unlink()
+    with pytest.raises(StorageError, match=f"its digest is not that in .{name}.sha256"):
+        read(path)
+
+
+def test_the_digest_is_in_the_format_of_sha256sum(tmp_path):
+    write_text(tmp_path / "a.txt", "abc")
+    known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # FIPS 180-2, appendix B.1
+    assert digest_file(tmp_path / "a.txt").read_text() == f"{known}  a.txt\n"
+
+
+def test_a_table_of_another_file_is_refused(tmp_path):
+    write_csv(tmp_path / "a.csv", ROWS)
+    write_csv(tmp_path / "b.csv", ROWS[:1])
+    rewrite(tmp_path / "a.csv", (tmp_path / "b.csv").read_bytes())
+    with pytest.raises(StorageError, match="truncated or altered"):
+        read_csv(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        (ROWS[:1], "no row for element CR, n 4"),
+        ([*ROWS, ROWS[0]], "2 rows for element P1, n 2"),
+    ],
+    ids=["lost", "twice"],
+)
+def test_every_row_asked_for_must_be_there_once(tmp_path, rows, message):
+    """Though the digest is right: a table of another question."""
+    others = [ROWS[0] | {"n": 4}, ROWS[1] | {"n": 2}]
+    write_csv(tmp_path / "a.csv", [*rows, *others])
+    assert len(read_csv(tmp_path / "a.csv")) == len(rows) + 2
+    with pytest.raises(StorageError, match=message):
+        read_csv(tmp_path / "a.csv", every={"element": ["P1", "CR"], "n": [2, 4]})
 
 
 def test_a_table_edited_elsewhere_is_read(tmp_path):
     text = io.StringIO()
     csv.writer(text).writerows([["a", "b"], ["1", "2,5"]])  # with the line ends of spreadsheets
     (tmp_path / "a.csv").write_bytes(text.getvalue().encode())
-    assert read_csv(tmp_path / "a.csv") == [{"a": "1", "b": "2,5"}]
+    assert read_table(tmp_path / "a.csv") == [{"a": "1", "b": "2,5"}]
 
 
 def test_a_write_that_fails_leaves_what_was(tmp_path):
@@ -116,7 +187,7 @@ def test_a_write_that_fails_leaves_what_was(tmp_path):
     with pytest.raises(UnicodeEncodeError):
         write_text(path, "\ud800")
     assert path.read_text() == "before"
-    assert [entry.name for entry in tmp_path.iterdir()] == ["a.txt"]
+    assert {entry.name for entry in tmp_path.iterdir()} == {"a.txt", ".a.txt.sha256"}
 
 
 def test_a_folder_that_is_a_file_is_reported(tmp_path):

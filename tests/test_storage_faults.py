@@ -9,7 +9,7 @@ import pytest
 
 from signorini import storage
 from signorini.exceptions import StorageError
-from signorini.storage import read_csv, read_npz, replacing, write_npz, write_text
+from signorini.storage import read_csv, read_npz, read_table, replacing, write_npz, write_text
 
 ARRAYS = {"u": np.linspace(0, 1, 3), "n": np.int64(8), "name": np.str_("P1")}
 
@@ -78,8 +78,14 @@ def test_strange_files_are_refused_by_name(path, case):
 def test_strange_tables_are_refused_by_name(tmp_path, text, numbers):
     (tmp_path / "t.csv").write_bytes(text.encode("latin-1"))
     with pytest.raises(StorageError, match="not a readable table") as error:
-        read_csv(tmp_path / "t.csv", numbers)
+        read_table(tmp_path / "t.csv", numbers)
     assert str(error.value).startswith(str(tmp_path / "t.csv"))
+
+
+def test_a_missing_table_is_named(tmp_path):
+    for read in (read_csv, read_table):
+        with pytest.raises(StorageError, match=r"t\.csv: cannot read \(No such file or directory\); delete it and rerun"):
+            read(tmp_path / "t.csv")
 
 
 class Trap:
@@ -111,6 +117,8 @@ def test_python_objects_are_not_written(tmp_path):
 
 # Writing
 
+SEALED = [".t.txt.sha256", "t.txt"]
+
 
 def test_a_folder_is_made_where_there_is_none(tmp_path):
     write_text(tmp_path / "a/b/c.txt", "x\n")
@@ -138,7 +146,7 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path, failure):
 
     with pytest.raises(failure):
         interrupted()
-    assert os.listdir(tmp_path) == ["t.txt"]
+    assert sorted(os.listdir(tmp_path)) == SEALED
     assert (tmp_path / "t.txt").read_text() == "old"
 
 
@@ -151,7 +159,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch)
     monkeypatch.setattr(storage.os, "replace", full)
     with pytest.raises(StorageError, match=r"t\.txt: cannot write \(No space left on device\); free space"):
         write_text(tmp_path / "t.txt", "new")
-    assert os.listdir(tmp_path) == ["t.txt"]
+    assert sorted(os.listdir(tmp_path)) == SEALED
     assert (tmp_path / "t.txt").read_text() == "old"
 
 

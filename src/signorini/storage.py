@@ -1,12 +1,19 @@
-"""Files: written whole or not at all, and refused when truncated or altered."""
+"""Files: written whole or not at all, and refused when truncated or altered.
+
+An .npz carries its checksums inside. Every other result has its SHA-256 digest in a hidden file beside it, in the format
+of sha256sum: ``errors.csv`` in ``.errors.csv.sha256``. So tables stay plain, and a copy of a folder is complete.
+"""
 
 import csv
+import hashlib
 import io
 import json
 import os
 import tempfile
 import zipfile
+from collections import Counter
 from contextlib import contextmanager
+from itertools import product
 from pathlib import Path
 
 from signorini.exceptions import StorageError
@@ -46,9 +53,63 @@ def _umask():
     return mask
 
 
+@contextmanager
+def sealing(path, mode="w", **options):
+    """`replacing`, and then the file's digest beside it, which `read_sealed` asks for.
+
+    Raises
+    ------
+    StorageError
+        As `replacing`; where there is no space for the digest alone, readers refuse the file.
+    """
+    with replacing(path, mode, **options) as stream:
+        yield stream
+    with replacing(digest_file(path), encoding="utf-8", newline="\n") as stream:
+        stream.write(f"{_digest(Path(path).read_bytes())}  {Path(path).name}\n")
+
+
+def digest_file(path):
+    """Where the digest of a file is kept."""
+    return Path(path).with_name(f".{Path(path).name}.sha256")
+
+
+def _digest(content):
+    return hashlib.sha256(content).hexdigest()
+
+
+def read_sealed(path):
+    """The bytes that `sealing` wrote.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, or is not what its digest says.
+    """
+    content = _content(path)
+    if not _sealed(content, digest_file(path)):
+        raise StorageError(
+            f"{path}: truncated or altered (its digest is not that in {digest_file(path).name}); delete it and rerun"
+        )
+    return content
+
+
+def _content(path):
+    try:
+        return Path(path).read_bytes()
+    except OSError as error:
+        raise StorageError(f"{path}: cannot read ({error.strerror}); delete it and rerun") from error
+
+
+def _sealed(content, digest):
+    try:
+        return digest.read_text(encoding="utf-8").split()[:1] == [_digest(content)]
+    except (OSError, ValueError):
+        return False
+
+
 def write_text(path, text):
-    """Write `text` as UTF-8 with Unix line ends."""
-    with replacing(path, encoding="utf-8", newline="\n") as stream:
+    """Write `text` as UTF-8 with Unix line ends, and its digest."""
+    with sealing(path, encoding="utf-8", newline="\n") as stream:
         stream.write(text)
 
 
@@ -61,19 +122,51 @@ def write_csv(path, rows):
     write_text(path, text.getvalue())
 
 
-def read_csv(path, numbers=()):
-    """Read a non-empty list of dicts; the columns named in `numbers` become float, or None where empty."""
+def read_csv(path, numbers=(), every=None):
+    """Read the list of dicts that `write_csv` wrote.
+
+    Parameters
+    ----------
+    path : str or Path
+    numbers : sequence of str, optional
+        Columns that become float, or None where empty; the others are text.
+    every : dict of str to sequence, optional
+        Columns and values, each combination of which must have one row: ``{"element": ["P1"], "n": [2, 4]}``.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, truncated, altered, or lacks a row.
+    """
+    return _rows(path, read_sealed(path), numbers, every or {})
+
+
+def read_table(path, numbers=()):
+    """The same for a table by anyone, which has no digest."""
+    return _rows(path, _content(path), numbers, {})
+
+
+def _rows(path, content, numbers, every):
     try:
-        with open(path, encoding="utf-8", newline="") as stream:
-            text = stream.read()
+        text = content.decode("utf-8")
         rows = list(csv.DictReader(io.StringIO(text)))
         if not (rows and text.endswith("\n") and all(None not in (*row, *row.values()) for row in rows)):
             raise ValueError("a line is missing, or cut off")
+        _check_rows(rows, every)
         for row in rows:
             row.update({key: float(row[key]) if row[key] else None for key in numbers})
-    except (OSError, KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise StorageError(f"{path}: not a readable table ({error}); mend it, or delete it and rerun") from error
     return rows
+
+
+def _check_rows(rows, every):
+    found = Counter(tuple(row[column] for column in every) for row in rows)
+    for values in product(*every.values()) if every else ():
+        count = found[tuple(map(str, values))]
+        if count != 1:
+            wanted = ", ".join(f"{column} {value}" for column, value in zip(every, values, strict=True))
+            raise ValueError(f"{f'{count} rows' if count else 'no row'} for {wanted}")
 
 
 def write_json(path, value):
@@ -83,10 +176,7 @@ def write_json(path, value):
 
 def read_json(path):
     """Read what `write_json` wrote."""
-    try:
-        return json.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise StorageError(f"{path}: truncated or altered ({error}); delete it and rerun") from error
+    return json.loads(read_sealed(path))
 
 
 def write_npz(path, kind, **arrays):

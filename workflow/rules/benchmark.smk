@@ -10,7 +10,9 @@ rule benchmark_machine:
     log:
         f"{BENCHMARK}/logs/machine.log",
     priority: 100  # before this run is the load
-    threads: workflow.cores
+    threads: all_cores
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/benchmark_machine.py --output {output:q} 2>&1 | tee {log:q}"
 
@@ -25,8 +27,9 @@ rule benchmark_point:
         f"{BENCHMARK}/points/{{scene}}/{{element}}/{{method}}/n{{n}}.csv",
     log:
         f"{BENCHMARK}/logs/points/{{scene}}_{{element}}_{{method}}_n{{n}}.log",
-    threads: workflow.cores
+    threads: all_cores
     params:
+        content=content,
         statement=statement,
         repeats=lambda wildcards: as_json(measured()["repeats"]),
         limits=lambda wildcards: as_json(measured()["limits"]),
@@ -42,15 +45,15 @@ rule benchmark_point:
 rule benchmark_rival:
     input:
         library("benchmark_rival.py"),
-        sorted(str(path) for path in SOURCE.glob("signorini/studies/rivals/*.py")),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         mesh=mesh_file,
     output:
         f"{BENCHMARK}/rivals/{{scene}}/{{element}}/{{rival}}.csv",
     log:
         f"{BENCHMARK}/logs/rivals/{{scene}}_{{element}}_{{rival}}.log",
-    threads: workflow.cores
+    threads: all_cores
     params:
+        content=content,
         statement=statement,
         levels=lambda wildcards: as_json(measured()["rivals"]["levels"]),
         seconds=lambda wildcards: measured()["rivals"]["seconds"],
@@ -68,6 +71,7 @@ use rule reference as benchmark_reference with:
     benchmark:
         f"{BENCHMARK}/benchmarks/reference_{{scene}}.tsv"
     params:
+        content=content,
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
         element="P1",
@@ -92,6 +96,7 @@ use rule errors as benchmark_errors with:
     benchmark:
         f"{BENCHMARK}/benchmarks/errors_{{scene}}.tsv"
     params:
+        content=content,
         norms="l2,h1_semi,h1",
         truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
@@ -111,12 +116,14 @@ rule benchmark_gather:
     log:
         f"{BENCHMARK}/logs/gather.log",
     params:
+        content=content,
         files=lambda wildcards, input: as_json(
             {key: list(input[key]) for key in ("points", "rivals", "errors", "coarse")}
         ),
+        asked=lambda wildcards: as_json(errors_asked()),
     shell:
-        "python3 workflow/scripts/benchmark_gather.py --files {params.files:q} --points {output.points:q}"
-        " --rivals {output.rivals:q} --summary {output.summary:q} 2>&1 | tee {log:q}"
+        "python3 workflow/scripts/benchmark_gather.py --files {params.files:q} --asked {params.asked:q}"
+        " --points {output.points:q} --rivals {output.rivals:q} --summary {output.summary:q} 2>&1 | tee {log:q}"
 
 
 rule benchmark_figure:
@@ -130,6 +137,8 @@ rule benchmark_figure:
         png=f"{BENCHMARK}/benchmark_{{figure}}.png",
     log:
         f"{BENCHMARK}/logs/figure_{{figure}}.log",
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/figure_benchmark.py --figure {wildcards.figure} --points {input.points:q}"
         " --rivals {input.rivals:q} --summary {input.summary:q} {output:q} 2>&1 | tee {log:q}"
@@ -150,6 +159,7 @@ rule benchmark:
     log:
         f"{BENCHMARK}/logs/report.log",
     params:
+        content=content,
         asked=lambda wildcards: as_json(measured() | {"truths": own_references()}),
     shell:
         "python3 workflow/scripts/benchmark_report.py --points {input.points:q} --rivals {input.rivals:q}"

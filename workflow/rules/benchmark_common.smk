@@ -62,6 +62,17 @@ def duels(wildcards):
     ]
 
 
+def errors_asked():
+    """The rows of errors that the summary needs, of each scene: on the levels shown here, and on the scene's own."""
+    asked = {name: scene(name).section("elements", "levels") for name in measured()["scenes"]}
+    return {"errors": {name: part | {"levels": shown_levels(name)} for name, part in asked.items()}, "coarse": asked}
+
+
+def all_cores(wildcards):
+    """As many as Snakemake was given; one where it was given none, as by `snakemake --unlock` or for a cluster."""
+    return workflow.global_resources["_cores"].value or 1
+
+
 def own_references():
     """Scene -> level of its own reference, where it has one."""
     truths = {name: scene(name).truth for name in measured()["scenes"]}

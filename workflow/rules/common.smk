@@ -1,4 +1,5 @@
 # Helpers of the rules: the configuration, the scenes, and what each job depends on.
+import atexit
 import hashlib
 import json
 import os
@@ -26,6 +27,7 @@ os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.env
 
 from signorini.boundary import labels_of
 from signorini.exceptions import SignoriniError
+from signorini.mesh_files import files_read
 from signorini.norms import RATED
 from signorini.scene import check_name, read_scene
 from signorini.schema import nearest, validated
@@ -34,7 +36,7 @@ from signorini.strict_yaml import load_yaml
 CONFIG_FILE = "config/config.yaml"
 NAME = "[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
 PUBLISHED = "config/published/table_5_1.csv"
-LATEX = shutil.which("latexmk") and shutil.which("pdflatex")
+WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
 FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
 
 
@@ -177,6 +179,20 @@ def module_files(name):
     return [file for file in files if file.is_file()]
 
 
+def content(wildcards, input):
+    """Of the inputs that no rule makes: a file counts as changed when its content is, whatever its time stamp says."""
+    sources = [path for path in input if not path.startswith("results/")]
+    return hashlib.sha256("".join(map(file_digest, sources)).encode()).hexdigest()
+
+
+@cache
+def file_digest(path):
+    if not os.path.isfile(path):
+        return ""  # Snakemake is about to say so
+    with open(path, "rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
 def as_json(value):
     return json.dumps(value, sort_keys=True)
 
@@ -210,7 +226,7 @@ def mesh_domain(key):
 
 def mesh_source(wildcards):
     domain = mesh_domain(wildcards.mesh)["domain"]
-    return [domain["file"]] if domain["kind"] == "mesh" else []
+    return list(map(str, files_read(domain["file"]))) if domain["kind"] == "mesh" else []
 
 
 def mesh_file(wildcards):
@@ -252,6 +268,15 @@ def coefficient_option(wildcards):
     return f"--coefficient {quote(as_json(document['data']['coefficient']))}" * ("energy" in document["norms"])
 
 
+def asked_rows(wildcards):
+    """Which rows errors.csv and rates.csv must have, as JSON."""
+    return asked_rows_of(wildcards.scene)
+
+
+def asked_rows_of(name):
+    return as_json(scene(name).section("elements", "levels", "norms"))
+
+
 def expected(wildcards):
     return scene(wildcards.scene).document["expect"]
 
@@ -290,11 +315,12 @@ def drawn_norms(document):
 
 
 def figure_options(wildcards):
-    """Options of figures.py for what `shown` lists, with the norms to draw and the kind of slope."""
+    """Options of figures.py for what `shown` lists, with the levels and norms to draw and the kind of slope."""
     document = scene(wildcards.scene).document
     options = shown(wildcards)
     if norms := drawn_norms(document):
-        options |= {"norms": ",".join(norms), "slope": document["slope"]}
+        asked = scene(wildcards.scene).section("elements", "levels") | {"norms": norms}
+        options |= {"asked": as_json(asked), "slope": document["slope"]}
     return " ".join(f"--{name} {quote(value)}" for name, value in options.items())
 
 
@@ -302,7 +328,7 @@ def paper_output():
     """The check and the PDF, where the scene `paper` is asked for with all that they show."""
     if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(scene("paper").document["outputs"]):
         return []
-    return [f"results/paper/{file}" for file in ("check.csv", "check.txt", "paper.pdf")[: 3 if LATEX else 2]]
+    return [f"results/paper/{file}" for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]]
 
 
 def all_scenes():

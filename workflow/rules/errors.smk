@@ -15,6 +15,7 @@ rule errors:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
     params:
+        content=content,
         norms=in_table,
         truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
@@ -34,8 +35,12 @@ rule rates:
     log:
         "results/{scene}/logs/rates.log",
     priority: 6
+    params:
+        content=content,
+        asked=asked_rows,
     shell:
-        "python3 workflow/scripts/rates.py --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 workflow/scripts/rates.py --errors {input.errors:q} --asked {params.asked:q} --output {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 rule expect:
@@ -48,9 +53,11 @@ rule expect:
     log:
         "results/{scene}/logs/expect.log",
     params:
+        content=content,
+        asked=asked_rows,
         expected=lambda wildcards: as_json(expected(wildcards)),
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],
         rates=lambda wildcards, input: f"--rates {quote(str(input.rates))}" if input.rates else "",
     shell:
         "python3 workflow/scripts/expect.py --expected {params.expected:q} --slope {params.slope}"
-        " --errors {input.errors:q} {params.rates} --output {output:q} 2>&1 | tee {log:q}"
+        " --asked {params.asked:q} --errors {input.errors:q} {params.rates} --output {output:q} 2>&1 | tee {log:q}"

@@ -12,6 +12,8 @@ rule surface:
         "results/{scene}/logs/surface.log",
     benchmark:
         "results/{scene}/benchmarks/surface.tsv"
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/surface.py --mesh {input.mesh:q} --reference {input.reference:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -26,6 +28,8 @@ rule figure_surface:
         png=report("results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"),
     log:
         "results/{scene}/logs/figure_surface.log",
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/figure_surface.py --surface {input.surface:q} {output:q} 2>&1 | tee {log:q}"
 
@@ -41,6 +45,8 @@ rule field:
         "results/{scene}/logs/field.log",
     benchmark:
         "results/{scene}/benchmarks/field.tsv"
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/field.py --mesh {input.mesh:q} --solution {input.solution:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -57,6 +63,8 @@ rule contact_line:
         "results/{scene}/logs/contact_line.log",
     benchmark:
         "results/{scene}/benchmarks/contact_line.tsv"
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/contact_line.py --mesh {input.mesh:q} --output {output:q}"
         " {input.solutions:q} 2>&1 | tee {log:q}"
@@ -77,6 +85,7 @@ rule figures:
     log:
         "results/{scene}/logs/figures.log",
     params:
+        content=content,
         title=lambda wildcards: scene(wildcards.scene).document["title"],
         options=figure_options,
     shell:
@@ -93,6 +102,7 @@ rule gallery:
     log:
         "results/logs/gallery.log",
     params:
+        content=content,
         titles=gallery_titles,
     shell:
         "python3 workflow/scripts/figure_gallery.py --titles {params.titles:q} --fields {input.fields:q}"
@@ -110,6 +120,8 @@ rule vtu:
         "results/{scene}/logs/vtu_{element}.log",
     benchmark:
         "results/{scene}/benchmarks/vtu_{element}.tsv"
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/vtu.py --mesh {input.mesh:q} --solution {input.solution:q}"
         " --output {output:q} 2>&1 | tee {log:q}"

@@ -28,11 +28,13 @@ rule figures_5_2_and_5_3:
         "results/paper/logs/figures_5_2_and_5_3.log",
     priority: 5
     params:
+        content=content,
+        asked=lambda wildcards: asked_rows_of("paper"),
         slope=lambda wildcards: scene("paper").document["slope"],
     shell:
         "python3 workflow/scripts/figure_convergence.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --slope {params.slope} --l2 {output.l2:q} {output.l2_png:q} --h1 {output.h1:q} {output.h1_png:q}"
-        " 2>&1 | tee {log:q}"
+        " --asked {params.asked:q} --slope {params.slope} --l2 {output.l2:q} {output.l2_png:q}"
+        " --h1 {output.h1:q} {output.h1_png:q} 2>&1 | tee {log:q}"
 
 
 rule check:
@@ -45,9 +47,12 @@ rule check:
         report("results/paper/check.csv", caption="../report/check.rst", category="paper"),
     log:
         "results/paper/logs/check.log",
+    params:
+        content=content,
+        asked=lambda wildcards: asked_rows_of("paper"),
     shell:
         "python3 workflow/scripts/check.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --published {input.published:q} --output {output:q} 2>&1 | tee {log:q}"
+        " --asked {params.asked:q} --published {input.published:q} --output {output:q} 2>&1 | tee {log:q}"
 
 
 # check.csv stays for inspection when a number is off; this rule then stops the build and says which.
@@ -59,6 +64,8 @@ rule verify:
         "results/paper/check.txt",
     log:
         "results/paper/logs/verify.log",
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/verify.py --check {input.check:q} --output {output:q} 2>&1 | tee {log:q}"
 
@@ -74,6 +81,7 @@ rule effects:
     benchmark:
         "results/paper/benchmarks/effects.tsv"
     params:
+        content=content,
         statement=lambda wildcards: statement_of("paper"),
         scene=lambda wildcards: as_json(scene("paper").section("elements", "levels", "truth", "norms")),
     shell:
@@ -95,10 +103,12 @@ rule macros:
     log:
         "results/paper/logs/macros.log",
     params:
+        content=content,
+        asked=lambda wildcards: asked_rows_of("paper"),
         n=lambda wildcards: scene("paper").truth["n"],
     shell:
         "python3 workflow/scripts/macros.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --surface {input.surface:q} --reference-n {params.n} --check {input.check:q}"
+        " --asked {params.asked:q} --surface {input.surface:q} --reference-n {params.n} --check {input.check:q}"
         " --published {input.published:q} --effects {input.effects:q} --output {output:q} 2>&1 | tee {log:q}"
 
 
@@ -114,6 +124,7 @@ rule paper:
     log:
         "results/paper/logs/paper.log",
     params:
+        content=content,
         appendix=lambda wildcards: [str(path) for path in appendix()],
         digest=lambda wildcards: digest(appendix()),
     shell:
@@ -121,10 +132,11 @@ rule paper:
         " {input.parts:q} {input.figures:q} {params.appendix:q} 2>&1 | tee {log:q}"
 
 
-if not LATEX and paper_output():
-
-    onsuccess:
-        print(
-            "The PDF was not built: latexmk or pdflatex is missing. On Debian: apt-get install latexmk"
-            " texlive-latex-recommended lmodern"
-        )
+if WITHOUT and paper_output() and workflow.is_main_process:
+    # Snakemake's own onsuccess is silent where there is nothing to do.
+    atexit.register(
+        print,
+        f"results/paper/paper.pdf: not built, for want of {' and '.join(WITHOUT)}. On Debian: apt-get install latexmk"
+        " texlive-latex-recommended lmodern",
+        file=sys.stderr,
+    )

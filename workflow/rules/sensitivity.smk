@@ -17,6 +17,7 @@ rule sensitivity_errors:
         f"{SENSITIVITY}/benchmarks/errors_{{diagonal}}.tsv"
     priority: lambda wildcards: DIAGONALS.index(wildcards.diagonal)
     params:
+        content=content,
         statement=lambda wildcards: statement_of("paper"),
         levels=lambda wildcards: as_json(sensitivity_levels()),
         reference=lambda wildcards: sensitivity_reference(),
@@ -36,8 +37,12 @@ rule sensitivity_combinations:
         ratios=f"{SENSITIVITY}/sensitivity_ratios.csv",
     log:
         f"{SENSITIVITY}/logs/combinations.log",
+    params:
+        content=content,
+        levels=lambda wildcards: as_json(sensitivity_levels()),
     shell:
         "python3 workflow/scripts/sensitivity_combinations.py --published {input.published:q}"
+        " --levels {params.levels:q}"
         " --combinations {output.combinations:q} --ratios {output.ratios:q} {input.errors:q} 2>&1 | tee {log:q}"
 
 
@@ -51,6 +56,8 @@ rule figure_sensitivity:
         ratios=[f"{SENSITIVITY}/sensitivity_ratios.{ending}" for ending in ("pdf", "png")],
     log:
         f"{SENSITIVITY}/logs/figure.log",
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/figure_sensitivity.py --combinations {input.combinations:q} --ratios {input.ratios:q}"
         " --matches-to {output.matches:q} --ratios-to {output.ratios:q} 2>&1 | tee {log:q}"
@@ -70,8 +77,10 @@ rule sensitivity:
     log:
         f"{SENSITIVITY}/logs/page.log",
     params:
+        content=content,
+        levels=lambda wildcards: as_json(sensitivity_levels()),
         reference=lambda wildcards: sensitivity_reference(),
         quick="--quick" if CONFIG["quick"] else "",
     shell:
         "python3 workflow/scripts/sensitivity.py --published {input.published:q} --reference-n {params.reference}"
-        " {params.quick} --tex {output.tex:q} --markdown {output.markdown:q} {input.errors:q} 2>&1 | tee {log:q}"
+        " --levels {params.levels:q} {params.quick} --tex {output.tex:q} --markdown {output.markdown:q} {input.errors:q} 2>&1 | tee {log:q}"

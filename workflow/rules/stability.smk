@@ -44,6 +44,7 @@ rule stability_success:
     wildcard_constraints:
         family="|".join(PROBLEM_FAMILIES),
     params:
+        content=content,
         seeds=f"{1000 * SEEDS} {1 if QUICK else 25}",
         few=1 if QUICK else 3,
         limit=0.1 if QUICK else 1,
@@ -62,6 +63,7 @@ rule stability_digits:
     wildcard_constraints:
         variant="|".join(VARIANTS),
     params:
+        content=content,
         statement=lambda wildcards: statement_of("paper"),
         scene=lambda wildcards: as_json(digits_asked()),
         name=lambda wildcards: wildcards.variant.removesuffix("-two-threads"),
@@ -84,6 +86,7 @@ rule stability_floor:
         piece="|".join(FLOOR),
     priority: 5
     params:
+        content=content,
         levels=lambda wildcards: list(FLOOR[wildcards.piece]),
     shell:
         "python3 workflow/scripts/stability_floor.py --piece {wildcards.piece} --levels {params.levels}"
@@ -100,6 +103,7 @@ rule stability_extremes:
     wildcard_constraints:
         kind="|".join(EXTREMES),
     params:
+        content=content,
         values=lambda wildcards: list(EXTREMES[wildcards.kind]),
     shell:
         "python3 workflow/scripts/stability_extremes.py --kind {wildcards.kind} --output {output:q}"
@@ -120,6 +124,7 @@ rule stability_report:
     log:
         f"{STABILITY}/logs/report.log",
     params:
+        content=content,
         limit=0.1 if QUICK else 1,
         seeds=SEEDS,
     shell:
@@ -137,5 +142,7 @@ rule figure_stability:
         [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
     log:
         f"{STABILITY}/logs/figures.log",
+    params:
+        content=content,
     shell:
         "python3 workflow/scripts/figure_stability.py {output:q} 2>&1 | tee {log:q}"

@@ -12,10 +12,10 @@ rule table:
     log:
         "results/{scene}/logs/table.log",
     params:
-        norms=in_table,
-        elements=lambda wildcards: ",".join(scene(wildcards.scene).elements),
+        content=content,
+        asked=asked_rows,
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],
     shell:
         "python3 workflow/scripts/table.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --norms {params.norms} --elements {params.elements} --slope {params.slope}"
+        " --asked {params.asked:q} --slope {params.slope}"
         " --tex {output.tex:q} --markdown {output.markdown:q} 2>&1 | tee {log:q}"

@@ -5,18 +5,22 @@ from pathlib import Path
 
 from stage import options, run
 
+from signorini.scene_tables import read_errors
 from signorini.storage import read_csv, write_csv, write_json
 from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
 from signorini.studies.benchmark_summary import summary, with_errors
 from signorini.studies.rivals import RIVALS
 
 
-@options("--files", "--points", "--rivals", "--summary")
+@options("--files", ("--asked", {"type": json.loads}), "--points", "--rivals", "--summary")
 def main(arguments):
-    """Files of points, rivals and errors (JSON: lists of paths by kind) to one table each, and a summary (JSON)."""
-    files = json.loads(arguments.files)
-    errors = {Path(path).stem: read_csv(path, numbers=ERRORS) for path in files["errors"]}
-    coarse = {Path(path).parent.name: read_csv(path, numbers=ERRORS) for path in files["coarse"]}
+    """Files of points, rivals and errors (JSON: lists of paths by kind) to one table each, and a summary (JSON).
+
+    What is asked (JSON: elements and levels of each scene, by kind) must be in the errors.
+    """
+    files, asked = json.loads(arguments.files), arguments.asked
+    errors = errors_of({Path(path).stem: path for path in files["errors"]}, asked["errors"])
+    coarse = errors_of({Path(path).parent.name: path for path in files["coarse"]}, asked["coarse"])
     points = with_errors(rows_of(files["points"], POINT_NUMBERS), errors)
     rivals = rows_of(files["rivals"], RIVAL_NUMBERS)
     write_csv(arguments.points, points)
@@ -25,6 +29,11 @@ def main(arguments):
     write_json(arguments.summary, summary(points, rivals, coarse, errors) | {"titles": titles})
     measured = sum(row["status"] == "measured" for row in points)
     return f"benchmark: {measured} points measured, {len(points) - measured} left out; {len(rivals)} rows of rivals"
+
+
+def errors_of(files, asked):
+    """Scene -> the rows of its errors."""
+    return {name: read_errors(path, asked[name], numbers=ERRORS) for name, path in files.items()}
 
 
 def rows_of(paths, numbers):

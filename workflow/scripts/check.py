@@ -1,15 +1,19 @@
 """Compare every published number with the computed one, in units of its last printed digit."""
 
+import json
+
 from stage import options, run
 
 from signorini.check import compare
-from signorini.storage import read_csv, write_csv
+from signorini.scene_tables import read_errors, read_rates
+from signorini.storage import read_table, write_csv
 
 
-@options("--errors", "--rates", "--published", "--output")
+@options("--errors", "--rates", ("--asked", {"type": json.loads}), "--published", "--output")
 def main(arguments):
-    """errors.csv, rates.csv and the published numbers to check.csv; `verify` judges it."""
-    rows = compare(read_csv(arguments.published), read_csv(arguments.errors), read_csv(arguments.rates))
+    """errors.csv, rates.csv, what the scene asks (JSON) and the published numbers to check.csv; `verify` judges it."""
+    errors, rates = read_errors(arguments.errors, arguments.asked), read_rates(arguments.rates, arguments.asked)
+    rows = compare(read_table(arguments.published), errors, rates)
     write_csv(arguments.output, rows)
     return f"check: {sum(row['ok'] for row in rows)} of {len(rows)} published numbers met"
 

@@ -6,7 +6,8 @@ from stage import options, run
 
 from signorini.effects import effects_of_choices
 from signorini.statement import ProblemStatement
-from signorini.storage import read_csv, write_csv
+from signorini.scene_tables import read_errors
+from signorini.storage import write_csv
 
 NORMS = ("l2", "h1_semi", "h1")
 
@@ -15,7 +16,7 @@ NORMS = ("l2", "h1_semi", "h1")
 def main(arguments):
     """A statement, what the scene asks (elements, levels, truth, norms; JSON) and errors.csv to effects.csv."""
     scene = json.loads(arguments.scene)
-    rows = read_csv(arguments.errors, numbers=NORMS)
+    rows = read_errors(arguments.errors, scene, numbers=NORMS)
     changes = effects_of_choices(
         ProblemStatement.from_mapping(json.loads(arguments.statement)),
         {(row["element"], int(row["n"]), norm): row[norm] for row in rows for norm in NORMS},

@@ -5,15 +5,17 @@ import json
 from stage import options, run
 
 from signorini.expect import check_expectations
-from signorini.storage import read_csv, write_text
+from signorini.scene_tables import read_errors, read_rates
+from signorini.storage import write_text
 
 
-@options("--expected", "--slope", "--errors", ("--rates", {"required": False}), "--output")
+@options("--expected", "--slope", ("--asked", {"type": json.loads}), "--errors", ("--rates", {"required": False}), "--output")
 def main(arguments):
-    """errors.csv and rates.csv to a line of text, or an error that lists what is off."""
-    rates = read_csv(arguments.rates, numbers=("slope",)) if arguments.rates else []
+    """errors.csv, rates.csv and what the scene asks (JSON) to a line of text, or an error that lists what is off."""
+    errors = read_errors(arguments.errors, arguments.asked)
+    rates = read_rates(arguments.rates, arguments.asked, numbers=("slope",)) if arguments.rates else []
     rates = [row for row in rates if row["kind"] == arguments.slope]
-    line = check_expectations(json.loads(arguments.expected), read_csv(arguments.errors), rates, arguments.errors)
+    line = check_expectations(json.loads(arguments.expected), errors, rates, arguments.errors)
     write_text(arguments.output, line + "\n")
     return line
 

@@ -1,5 +1,6 @@
 """Draw what a scene shows, to PDF and PNG: its solution, its contact line, its errors in every norm."""
 
+import json
 from pathlib import Path
 
 from stage import options, run
@@ -8,6 +9,7 @@ from signorini.figures.contact_line import draw_contact_line
 from signorini.figures.convergence import draw_convergence, slopes_of
 from signorini.figures.field import draw_field
 from signorini.figures.style import save_figure
+from signorini.scene_tables import read_errors, read_rates
 from signorini.storage import read_csv, read_npz
 
 OPTIONAL = {"required": False}
@@ -19,18 +21,21 @@ OPTIONAL = {"required": False}
     ("--line", OPTIONAL),
     ("--errors", OPTIONAL),
     ("--rates", OPTIONAL),
-    ("--norms", OPTIONAL),
+    ("--asked", OPTIONAL | {"type": json.loads}),
     ("--slope", OPTIONAL),
     "--output",
 )
 def main(arguments):
-    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv to a folder of figures."""
+    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv with what of them to draw (elements, levels,
+    norms; JSON), to a folder of figures.
+    """
     figures = {"solution": draw_field(read_npz(arguments.field, kind="field"), arguments.title)}
     if arguments.line:
         figures["contact_line"] = draw_contact_line(read_csv(arguments.line))
     if arguments.errors:
-        errors, rates = read_csv(arguments.errors), read_csv(arguments.rates, numbers=("slope",))
-        for norm in arguments.norms.split(","):
+        asked = arguments.asked
+        errors, rates = read_errors(arguments.errors, asked), read_rates(arguments.rates, asked, numbers=("slope",))
+        for norm in asked["norms"]:
             figures[norm] = draw_convergence(errors, norm, slopes_of(rates, norm, arguments.slope))
     for name, figure in figures.items():
         for ending in ("pdf", "png"):

@@ -1,8 +1,10 @@
 """Write the page of the sensitivity study, in LaTeX and in Markdown."""
 
+import json
+
 from stage import options, run
 
-from signorini.storage import read_csv, write_text
+from signorini.storage import read_table, write_text
 from signorini.studies.combinations import combinations, read_errors
 from signorini.studies.page import to_latex, to_markdown
 from signorini.studies.sensitivity_page import page
@@ -10,6 +12,7 @@ from signorini.studies.sensitivity_page import page
 
 @options(
     "--published",
+    ("--levels", {"type": json.loads}),
     ("--reference-n", {"type": int}),
     ("--quick", {"action": "store_true", "required": False}),
     "--tex",
@@ -18,8 +21,8 @@ from signorini.studies.sensitivity_page import page
 )
 def main(arguments):
     """The errors of each diagonal and the published numbers to a page that states what they show."""
-    errors = read_errors(arguments.errors)
-    rows = combinations(errors, read_csv(arguments.published))
+    errors = read_errors(arguments.errors, arguments.levels)
+    rows = combinations(errors, read_table(arguments.published))
     title, blocks = page(rows, errors, arguments.reference_n, arguments.quick)
     write_text(arguments.tex, to_latex(title, blocks))
     write_text(arguments.markdown, to_markdown(title, blocks))

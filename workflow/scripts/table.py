@@ -1,20 +1,20 @@
 """The error table of a scene, in LaTeX and in Markdown."""
 
+import json
+
 from stage import options, run
 
-from signorini.storage import read_csv, write_text
+from signorini.scene_tables import read_errors, read_rates
+from signorini.storage import write_text
 from signorini.tables import error_table, markdown_table
 
 
-@options("--errors", "--rates", "--norms", "--elements", "--slope", "--tex", "--markdown")
+@options("--errors", "--rates", ("--asked", {"type": json.loads}), "--slope", "--tex", "--markdown")
 def main(arguments):
-    """errors.csv and rates.csv to a tabular and a Markdown table."""
-    errors, rates = read_csv(arguments.errors), read_csv(arguments.rates)
-    shown = {
-        "norms": arguments.norms.split(","),
-        "elements": arguments.elements.split(","),
-        "kind": arguments.slope,
-    }
+    """errors.csv, rates.csv and what the scene asks (elements, levels, norms; JSON) to a LaTeX and a Markdown table."""
+    asked = arguments.asked
+    errors, rates = read_errors(arguments.errors, asked), read_rates(arguments.rates, asked)
+    shown = {"norms": asked["norms"], "elements": asked["elements"], "kind": arguments.slope}
     write_text(arguments.tex, error_table(errors, rates, **shown))
     write_text(arguments.markdown, markdown_table(errors, rates, **shown))
     return f"table: {len(errors)} errors"

@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from signorini.storage import replacing
+from signorini.storage import sealing
 
 TEXT_WIDTH = 150 / 25.4  # inches; \textwidth of paper/main.tex, so that figures are included unscaled
 
@@ -84,7 +84,7 @@ def save_figure(figure, path, colours=None):
     path = Path(path)
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
-    with matplotlib.rc_context(STYLE), replacing(path, "wb") as stream:
+    with matplotlib.rc_context(STYLE), sealing(path, "wb") as stream:
         if colours and path.suffix == ".png":
             _save_reduced(figure, stream, colours)
         else:

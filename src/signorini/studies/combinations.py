@@ -5,7 +5,7 @@ import math
 from signorini.check import compare
 from signorini.rates import slopes
 from signorini.storage import read_csv
-from signorini.studies.unsaid import CHOICES, ELEMENTS, H1, PAPER, SLOPES
+from signorini.studies.unsaid import CHOICES, ELEMENTS, H1, LOADS, PAPER, RULES, SLOPES
 
 NORMS = ("l2", "h1")
 TIE = "tie"
@@ -13,9 +13,10 @@ _ROUNDING = 1e-9
 SERIES = [(norm, element) for norm in NORMS for element in ELEMENTS]
 
 
-def read_errors(paths):
-    """Read the rows of `sensitivity.errors_of_diagonal` from one file per diagonal, norms as numbers."""
-    return [row for path in paths for row in read_csv(path, numbers=("l2", "h1_semi", "h1"))]
+def read_errors(paths, levels):
+    """Read the rows of `sensitivity.errors_of_diagonal` at these levels from one file per diagonal, norms as numbers."""
+    every = {"load": LOADS, "rule": RULES, "element": ELEMENTS, "n": levels}
+    return [row for path in paths for row in read_csv(path, ("l2", "h1_semi", "h1"), every)]
 
 
 def combinations(errors, published):

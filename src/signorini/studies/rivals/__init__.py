@@ -90,7 +90,7 @@ class Rival:
     install : str
         The command that installs it.
     adapter : str
-        ``"module:function"`` in this room: (BoundProblem, tolerance, deadline) to (x, claimed, iterations).
+        ``"module:function"``, imported when asked for: (BoundProblem, tolerance, deadline) to (x, claimed, iterations).
     """
 
     name: str
@@ -120,7 +120,7 @@ class Rival:
         """
         prepared = BoundProblem.of(problem)
         module, function = self.adapter.split(":")
-        adapter = getattr(importlib.import_module(f"{__name__}.{module}"), function)
+        adapter = getattr(importlib.import_module(module), function)
         u = np.zeros_like(problem.b)
         u[problem.fixed] = problem.fixed_values
         start = time.perf_counter()
@@ -138,19 +138,19 @@ def _rival(name, title, package, adapter, requirement=None):
 
 
 _ALL = (
-    _rival("spsolve", "active set, SciPy spsolve", "scipy", "active_set:spsolve"),
-    _rival("superlu", "active set, SuperLU symmetric", "scipy", "active_set:superlu"),
-    _rival("pyamg", "active set, CG with PyAMG", "pyamg", "active_set:pyamg"),
-    _rival("ngsolve", "active set, NGSolve Cholesky", "ngsolve", "active_set:ngsolve"),
-    _rival("osqp", "OSQP", "osqp", "quadratic:osqp"),
-    _rival("clarabel", "Clarabel", "clarabel", "quadratic:clarabel"),
-    _rival("piqp", "PIQP", "piqp", "quadratic:piqp"),
-    _rival("proxqp", "ProxQP", "proxsuite", "quadratic:proxqp"),
-    _rival("highs", "HiGHS", "highspy", "quadratic:highs"),
-    _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", "bounded:lbfgsb"),
-    _rival("bvls", "SciPy BVLS, condensed", "scipy", "bounded:bvls"),
-    _rival("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", "bounded:petsc_vi", "petsc petsc4py"),
-    _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", "bounded:petsc_tao", "petsc petsc4py"),
+    _rival("spsolve", "active set, SciPy spsolve", "scipy", "signorini.studies.rivals.active_set:spsolve"),
+    _rival("superlu", "active set, SuperLU symmetric", "scipy", "signorini.studies.rivals.active_set:superlu"),
+    _rival("pyamg", "active set, CG with PyAMG", "pyamg", "signorini.studies.rivals.active_set:pyamg"),
+    _rival("ngsolve", "active set, NGSolve Cholesky", "ngsolve", "signorini.studies.rivals.active_set:ngsolve"),
+    _rival("osqp", "OSQP", "osqp", "signorini.studies.rivals.quadratic:osqp"),
+    _rival("clarabel", "Clarabel", "clarabel", "signorini.studies.rivals.quadratic:clarabel"),
+    _rival("piqp", "PIQP", "piqp", "signorini.studies.rivals.quadratic:piqp"),
+    _rival("proxqp", "ProxQP", "proxsuite", "signorini.studies.rivals.quadratic:proxqp"),
+    _rival("highs", "HiGHS", "highspy", "signorini.studies.rivals.quadratic:highs"),
+    _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", "signorini.studies.rivals.bounded:lbfgsb"),
+    _rival("bvls", "SciPy BVLS, condensed", "scipy", "signorini.studies.rivals.bounded:bvls"),
+    _rival("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", "signorini.studies.rivals.bounded:petsc_vi", "petsc petsc4py"),
+    _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", "signorini.studies.rivals.bounded:petsc_tao", "petsc petsc4py"),
 )
 
 RIVALS = {rival.name: rival for rival in _ALL}

@@ -18,8 +18,8 @@ def files_read(path):
     Returns
     -------
     list of Path
-        The file itself, whether or not there is one, and those that it takes data from and that are there: the HDF5 files
-        that an .xdmf names, the mesh functions ``<name>_*.xml`` beside a DOLFIN ``<name>.xml``.
+        The file itself, whether or not there is one, and those that are there of the others: the HDF5 files that an
+        .xdmf names, the mesh functions ``<name>_*.xml`` beside a DOLFIN ``<name>.xml``.
     """
     path = Path(path)
     suffix = path.suffix.lower()

@@ -1,7 +1,7 @@
 """Files: written whole or not at all, and refused when truncated or altered.
 
-An .npz carries its checksums inside. Every other result has its SHA-256 digest in a hidden file beside it, in the format
-of sha256sum: ``errors.csv`` in ``.errors.csv.sha256``. So tables stay plain, and a copy of a folder is complete.
+An .npz carries its checksums inside. Every other result has its SHA-256 digest in a hidden file beside it, in the
+format of sha256sum: ``errors.csv`` in ``.errors.csv.sha256``. So tables stay plain, and a copy of a folder is complete.
 """
 
 import csv

@@ -31,7 +31,8 @@ slope: mean
 outputs: [errors, rates, table, figures]
 """
 
-# Written beside the results by every Python process of a run: which modules it had loaded at its end.
+# Written beside the results by every Python process of a run: which modules it had loaded at its end; and at once, for
+# it may be killed, which rooms of the library it asks for, under the script that started it.
 SPY = """\
 import atexit, json, os, sys
 from pathlib import Path
@@ -39,8 +40,16 @@ from pathlib import Path
 def tell():
     Path(os.environ["SPY"], f"{os.getpid()}.json").write_text(json.dumps([sys.argv[0], sorted(sys.modules)]))
 
+def note(event, arguments):
+    if event == "import" and arguments[0].partition(".")[0] in ("signorini", "stage"):
+        with open(os.environ["SPY"] + ".txt", "a") as stream:
+            stream.write(f"{os.environ.get('SPIED', '')} {arguments[0]}\\n")
+
 if os.environ.get("SPY"):
+    if "workflow/scripts/" in sys.argv[0]:
+        os.environ["SPIED"] = Path(sys.argv[0]).name
     atexit.register(tell)
+    sys.addaudithook(note)
 """
 
 
@@ -164,6 +173,41 @@ def modules_of(folder):
         script, modules = json.loads(path.read_text())
         found.setdefault(Path(script).name, set()).update(modules)
     return found
+
+
+def rooms_of(folder):
+    """Script -> rooms of the library that its processes asked for, of a build made by `spied_build`."""
+    found = {}
+    for line in (folder / "modules.txt").read_text().splitlines():
+        script, room = line.split(" ")
+        found.setdefault(script, set()).add(room)
+    return {script: rooms for script, rooms in found.items() if script}
+
+
+def inputs_of_scripts(text):
+    """Script -> library files among the inputs of its jobs, from a dry run's output."""
+    inputs = {}
+    for line in re.findall(r"^    input: (.*)$", text, re.M):
+        files = set(line.split(", "))
+        for script in (file for file in files if file.startswith("workflow/scripts/")):
+            inputs.setdefault(script.rpartition("/")[2], set()).update(files)
+    return inputs
+
+
+def left_out(modules, inputs):
+    """Rooms of the library that a job imported and that are not among its inputs."""
+    own = [name for name in modules if name.partition(".")[0] == "signorini"]
+    stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
+    files = {stem: {f"{stem}.py", f"{stem}/__init__.py"} for stem in stems}
+    there = {stem: {file for file in names if (ROOT / file).is_file()} for stem, names in files.items()}
+    return [stem for stem, names in there.items() if names and not names & inputs]
+
+
+def undeclared(project, folder, *arguments):
+    """Script -> rooms that its jobs asked for and did not declare, of a build made by `spied_build` with arguments."""
+    run = project.build(*arguments, "--dry-run", "--forceall", "--quiet", "host")
+    inputs, rooms = inputs_of_scripts(run.text), rooms_of(folder)
+    return {script: left_out(rooms[script], inputs[script]) for script in rooms if script in inputs}
 
 
 def side_by_side(function, cases):

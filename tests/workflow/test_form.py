@@ -25,6 +25,7 @@ def test_rule(rule):
     assert f'library("{script}")' in body
     assert "    log:\n" in body
     assert "2>&1 | tee {log:q}" in body
+    assert "    params:\n        content=content,\n" in body
     code = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
     assert bool(COMPUTING.search(code)) == ("    benchmark:\n" in body)
 

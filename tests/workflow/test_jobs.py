@@ -4,7 +4,7 @@ import os
 import re
 
 import pytest
-from project import LATEX, SMALL, modules_of, side_by_side
+from project import LATEX, SMALL, inputs_of_scripts, left_out, modules_of, side_by_side
 
 FIGURES = {"figures": 1}
 ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES
@@ -100,23 +100,6 @@ def test_an_edited_file_of_the_paper(paper, file, line, expected):
     paper.write(file, (paper / file).read_text(encoding="utf-8") + line)
     typeset = {"macros"} | {"paper"} if expected else {"paper"}
     assert paper.jobs().keys() == (expected | typeset if LATEX else expected)
-
-
-def inputs_of_scripts(text):
-    """Script -> the inputs of the rules that run it, as a dry run tells them."""
-    inputs = {}
-    for line in re.findall(r"^    input: (.*)$", text, re.M):
-        files = set(line.split(", "))
-        for script in (file for file in files if file.startswith("workflow/scripts/")):
-            inputs.setdefault(script.rpartition("/")[2], set()).update(files)
-    return inputs
-
-
-def left_out(modules, inputs):
-    """Rooms of the library that a job imported and that are not among its inputs."""
-    own = [name for name in modules if name.partition(".")[0] == "signorini"]
-    stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
-    return [stem for stem in stems if not {f"{stem}.py", f"{stem}/__init__.py"} & inputs]
 
 
 @pytest.mark.parametrize("scene", ["small", "paper"])

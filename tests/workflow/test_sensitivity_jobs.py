@@ -1,8 +1,7 @@
 """`snakemake sensitivity`: its jobs, its files, and that a quick run is no full one."""
 
 import pytest
-from project import LATEX, Project, modules_of
-from test_jobs import inputs_of_scripts, left_out
+from project import LATEX, Project, undeclared
 
 QUICK = ("sensitivity", "--config", "quick=true")
 JOBS = {"sensitivity_errors": 5, "sensitivity_combinations": 1, "figure_sensitivity": 1, "sensitivity": 1}
@@ -35,10 +34,8 @@ def test_a_quick_page_says_so(built):
 
 def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
-    inputs = inputs_of_scripts(project.build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text)
-    imports = modules_of(spied)
-    scripts = inputs.keys() - {"stage.py"}
-    assert {script: left_out(imports[script], inputs[script]) for script in scripts} == {s: [] for s in scripts}
+    missing = undeclared(project, spied, *QUICK)
+    assert missing == {path.name: [] for path in (project / "workflow/scripts").glob("*sensitivity*.py")}
 
 
 def test_the_full_study_is_another(built):

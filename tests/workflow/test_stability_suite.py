@@ -5,7 +5,7 @@ import re
 from datetime import date
 
 import pytest
-from project import LATEX, Project
+from project import LATEX, Project, rooms_of, undeclared
 
 from signorini.studies.bodies import FAMILIES
 from signorini.typeset import typeset
@@ -13,11 +13,40 @@ from signorini.typeset import typeset
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 
 
+QUICK = ("--config", "quick=true", "--", "stability")
+
+
 @pytest.fixture(scope="module")
-def suite(tmp_path_factory):
+def spied(tmp_path_factory):
+    return tmp_path_factory.mktemp("spied") / "stability"
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory, spied):
     project = Project.fresh(tmp_path_factory.mktemp("suite") / "project")
-    project.build("--config", "quick=true", "--", "stability")
-    return project / "results/quick/stability"
+    project.spied_build(spied, *QUICK)
+    return project
+
+
+@pytest.fixture(scope="module")
+def suite(built):
+    return built / "results/quick/stability"
+
+
+def test_what_a_job_loads_is_among_its_inputs(built, spied):
+    missing = undeclared(built, spied, *QUICK)
+    assert missing == {script: [] for script in missing}
+    own = {path.name for path in (built / "workflow/scripts").glob("*stability*.py")}
+    assert missing.keys() == own
+    assert "signorini.studies.rivals.bounded" in rooms_of(spied)["stability_success.py"]  # SciPy's, always there
+
+
+def test_an_edited_rival_is_tried_again(built, tmp_path):
+    project = built.copy(tmp_path / "project")
+    assert project.jobs(*QUICK) == {}
+    path = "src/signorini/studies/rivals/bounded.py"
+    project.write(path, (project / path).read_text(encoding="utf-8") + "# a comment\n")
+    assert project.jobs(*QUICK)["stability_success"] == len(FAMILIES)
 
 
 def rows(path):

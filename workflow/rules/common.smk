@@ -180,7 +180,7 @@ def module_files(name):
 
 
 def content(wildcards, input):
-    """Of the inputs that no rule makes: a file counts as changed when its content is, whatever its time stamp says."""
+    """Of the inputs that are no results: a file counts as changed when its content is, whatever its time stamp says."""
     sources = [path for path in input if not path.startswith("results/")]
     return hashlib.sha256("".join(map(file_digest, sources)).encode()).hexdigest()
 

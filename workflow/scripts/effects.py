@@ -5,8 +5,8 @@ import json
 from stage import options, run
 
 from signorini.effects import effects_of_choices
-from signorini.statement import ProblemStatement
 from signorini.scene_tables import read_errors
+from signorini.statement import ProblemStatement
 from signorini.storage import write_csv
 
 NORMS = ("l2", "h1_semi", "h1")

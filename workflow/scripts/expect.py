@@ -9,7 +9,9 @@ from signorini.scene_tables import read_errors, read_rates
 from signorini.storage import write_text
 
 
-@options("--expected", "--slope", ("--asked", {"type": json.loads}), "--errors", ("--rates", {"required": False}), "--output")
+@options(
+    "--expected", "--slope", ("--asked", {"type": json.loads}), "--errors", ("--rates", {"required": False}), "--output"
+)
 def main(arguments):
     """errors.csv, rates.csv and what the scene asks (JSON) to a line of text, or an error that lists what is off."""
     errors = read_errors(arguments.errors, arguments.asked)

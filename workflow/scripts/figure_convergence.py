@@ -14,7 +14,7 @@ from signorini.scene_tables import read_errors, read_rates
     *(("--l2", {"nargs": "+"}), ("--h1", {"nargs": "+"})),
 )
 def main(arguments):
-    """errors.csv, rates.csv and what the scene asks (JSON) to two figures, each in the formats that the outputs' endings name."""
+    """errors.csv, rates.csv and what the scene asks (JSON) to two figures, in the formats of their endings."""
     errors = read_errors(arguments.errors, arguments.asked)
     rates = read_rates(arguments.rates, arguments.asked, numbers=("slope",))
     for norm, paths in (("l2", arguments.l2), ("h1", arguments.h1)):

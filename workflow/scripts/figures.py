@@ -26,8 +26,9 @@ OPTIONAL = {"required": False}
     "--output",
 )
 def main(arguments):
-    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv with what of them to draw (elements, levels,
-    norms; JSON), to a folder of figures.
+    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv to a folder of figures.
+
+    Of the last two with what to draw of them (elements, levels, norms; JSON).
     """
     figures = {"solution": draw_field(read_npz(arguments.field, kind="field"), arguments.title)}
     if arguments.line:

@@ -14,7 +14,7 @@ SERIES = [(norm, element) for norm in NORMS for element in ELEMENTS]
 
 
 def read_errors(paths, levels):
-    """Read the rows of `sensitivity.errors_of_diagonal` at these levels from one file per diagonal, norms as numbers."""
+    """Read the rows of `sensitivity.errors_of_diagonal`, of all levels, from a file per diagonal; norms as numbers."""
     every = {"load": LOADS, "rule": RULES, "element": ELEMENTS, "n": levels}
     return [row for path in paths for row in read_csv(path, ("l2", "h1_semi", "h1"), every)]
 

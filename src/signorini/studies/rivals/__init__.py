@@ -137,20 +137,25 @@ def _rival(name, title, package, adapter, requirement=None):
     return Rival(name, title, package, install, adapter)
 
 
+# In full, so that the workflow finds them: they are inputs of the jobs that may import them.
+_ACTIVE_SET = "signorini.studies.rivals.active_set"
+_BOUNDED = "signorini.studies.rivals.bounded"
+_QUADRATIC = "signorini.studies.rivals.quadratic"
+
 _ALL = (
-    _rival("spsolve", "active set, SciPy spsolve", "scipy", "signorini.studies.rivals.active_set:spsolve"),
-    _rival("superlu", "active set, SuperLU symmetric", "scipy", "signorini.studies.rivals.active_set:superlu"),
-    _rival("pyamg", "active set, CG with PyAMG", "pyamg", "signorini.studies.rivals.active_set:pyamg"),
-    _rival("ngsolve", "active set, NGSolve Cholesky", "ngsolve", "signorini.studies.rivals.active_set:ngsolve"),
-    _rival("osqp", "OSQP", "osqp", "signorini.studies.rivals.quadratic:osqp"),
-    _rival("clarabel", "Clarabel", "clarabel", "signorini.studies.rivals.quadratic:clarabel"),
-    _rival("piqp", "PIQP", "piqp", "signorini.studies.rivals.quadratic:piqp"),
-    _rival("proxqp", "ProxQP", "proxsuite", "signorini.studies.rivals.quadratic:proxqp"),
-    _rival("highs", "HiGHS", "highspy", "signorini.studies.rivals.quadratic:highs"),
-    _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", "signorini.studies.rivals.bounded:lbfgsb"),
-    _rival("bvls", "SciPy BVLS, condensed", "scipy", "signorini.studies.rivals.bounded:bvls"),
-    _rival("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", "signorini.studies.rivals.bounded:petsc_vi", "petsc petsc4py"),
-    _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", "signorini.studies.rivals.bounded:petsc_tao", "petsc petsc4py"),
+    _rival("spsolve", "active set, SciPy spsolve", "scipy", f"{_ACTIVE_SET}:spsolve"),
+    _rival("superlu", "active set, SuperLU symmetric", "scipy", f"{_ACTIVE_SET}:superlu"),
+    _rival("pyamg", "active set, CG with PyAMG", "pyamg", f"{_ACTIVE_SET}:pyamg"),
+    _rival("ngsolve", "active set, NGSolve Cholesky", "ngsolve", f"{_ACTIVE_SET}:ngsolve"),
+    _rival("osqp", "OSQP", "osqp", f"{_QUADRATIC}:osqp"),
+    _rival("clarabel", "Clarabel", "clarabel", f"{_QUADRATIC}:clarabel"),
+    _rival("piqp", "PIQP", "piqp", f"{_QUADRATIC}:piqp"),
+    _rival("proxqp", "ProxQP", "proxsuite", f"{_QUADRATIC}:proxqp"),
+    _rival("highs", "HiGHS", "highspy", f"{_QUADRATIC}:highs"),
+    _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", f"{_BOUNDED}:lbfgsb"),
+    _rival("bvls", "SciPy BVLS, condensed", "scipy", f"{_BOUNDED}:bvls"),
+    _rival("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", f"{_BOUNDED}:petsc_vi", "petsc petsc4py"),
+    _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", f"{_BOUNDED}:petsc_tao", "petsc petsc4py"),
 )
 
 RIVALS = {rival.name: rival for rival in _ALL}

@@ -25,7 +25,10 @@ def test_rule(rule):
     assert f'library("{script}")' in body
     assert "    log:\n" in body
     assert "2>&1 | tee {log:q}" in body
-    assert "    params:\n        content=content,\n" in body
+    (content,) = re.findall(r"^        content=content\((.*)\),$", body, re.M)
+    assert content.startswith(f'"{script}"')
+    sources = re.findall(r"^        (?:source|published)=(.*),$", body.partition("    output:")[0], re.M)
+    assert content.split(", ")[1:] == sources  # what else is no result
     code = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
     assert bool(COMPUTING.search(code)) == ("    benchmark:\n" in body)
 

@@ -12,7 +12,7 @@ rule benchmark_machine:
     priority: 100  # before this run is the load
     threads: all_cores
     params:
-        content=content,
+        content=content("benchmark_machine.py"),
     shell:
         "python3 workflow/scripts/benchmark_machine.py --output {output:q} 2>&1 | tee {log:q}"
 
@@ -29,7 +29,7 @@ rule benchmark_point:
         f"{BENCHMARK}/logs/points/{{scene}}_{{element}}_{{method}}_n{{n}}.log",
     threads: all_cores
     params:
-        content=content,
+        content=content("benchmark_point.py"),
         statement=statement,
         repeats=lambda wildcards: as_json(measured()["repeats"]),
         limits=lambda wildcards: as_json(measured()["limits"]),
@@ -53,7 +53,7 @@ rule benchmark_rival:
         f"{BENCHMARK}/logs/rivals/{{scene}}_{{element}}_{{rival}}.log",
     threads: all_cores
     params:
-        content=content,
+        content=content("benchmark_rival.py"),
         statement=statement,
         levels=lambda wildcards: as_json(measured()["rivals"]["levels"]),
         seconds=lambda wildcards: measured()["rivals"]["seconds"],
@@ -71,7 +71,7 @@ use rule reference as benchmark_reference with:
     benchmark:
         f"{BENCHMARK}/benchmarks/reference_{{scene}}.tsv"
     params:
-        content=content,
+        content=content("solve.py"),
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
         element="P1",
@@ -96,7 +96,7 @@ use rule errors as benchmark_errors with:
     benchmark:
         f"{BENCHMARK}/benchmarks/errors_{{scene}}.tsv"
     params:
-        content=content,
+        content=content("errors.py"),
         norms="l2,h1_semi,h1",
         truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
@@ -116,7 +116,7 @@ rule benchmark_gather:
     log:
         f"{BENCHMARK}/logs/gather.log",
     params:
-        content=content,
+        content=content("benchmark_gather.py"),
         files=lambda wildcards, input: as_json(
             {key: list(input[key]) for key in ("points", "rivals", "errors", "coarse")}
         ),
@@ -138,7 +138,7 @@ rule benchmark_figure:
     log:
         f"{BENCHMARK}/logs/figure_{{figure}}.log",
     params:
-        content=content,
+        content=content("figure_benchmark.py"),
     shell:
         "python3 workflow/scripts/figure_benchmark.py --figure {wildcards.figure} --points {input.points:q}"
         " --rivals {input.rivals:q} --summary {input.summary:q} {output:q} 2>&1 | tee {log:q}"
@@ -159,7 +159,7 @@ rule benchmark:
     log:
         f"{BENCHMARK}/logs/report.log",
     params:
-        content=content,
+        content=content("benchmark_report.py"),
         asked=lambda wildcards: as_json(measured() | {"truths": own_references()}),
     shell:
         "python3 workflow/scripts/benchmark_report.py --points {input.points:q} --rivals {input.rivals:q}"

@@ -179,10 +179,19 @@ def module_files(name):
     return [file for file in files if file.is_file()]
 
 
-def content(wildcards, input):
-    """Of the inputs that are no results: a file counts as changed when its content is, whatever its time stamp says."""
-    sources = [path for path in input if not path.startswith("results/")]
-    return hashlib.sha256("".join(map(file_digest, sources)).encode()).hexdigest()
+def content(script, *sources):
+    """A parameter: what is in the library files of a script, and in other files or what a function says are the files.
+
+    A source counts as changed when this is, whatever its time stamp says. Snakemake compares no parameter that is a
+    function of the job's inputs, so that they are listed again.
+    """
+
+    def found(wildcards):
+        others = [source(wildcards) if callable(source) else [source] for source in sources]
+        digests = map(file_digest, sum(others, library(script)))
+        return hashlib.sha256("".join(digests).encode()).hexdigest()
+
+    return found
 
 
 @cache

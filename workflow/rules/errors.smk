@@ -15,7 +15,7 @@ rule errors:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
     params:
-        content=content,
+        content=content("errors.py"),
         norms=in_table,
         truth=truth_option,
         quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
@@ -36,7 +36,7 @@ rule rates:
         "results/{scene}/logs/rates.log",
     priority: 6
     params:
-        content=content,
+        content=content("rates.py"),
         asked=asked_rows,
     shell:
         "python3 workflow/scripts/rates.py --errors {input.errors:q} --asked {params.asked:q} --output {output:q}"
@@ -53,7 +53,7 @@ rule expect:
     log:
         "results/{scene}/logs/expect.log",
     params:
-        content=content,
+        content=content("expect.py"),
         asked=asked_rows,
         expected=lambda wildcards: as_json(expected(wildcards)),
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],

@@ -13,7 +13,7 @@ rule surface:
     benchmark:
         "results/{scene}/benchmarks/surface.tsv"
     params:
-        content=content,
+        content=content("surface.py"),
     shell:
         "python3 workflow/scripts/surface.py --mesh {input.mesh:q} --reference {input.reference:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -29,7 +29,7 @@ rule figure_surface:
     log:
         "results/{scene}/logs/figure_surface.log",
     params:
-        content=content,
+        content=content("figure_surface.py"),
     shell:
         "python3 workflow/scripts/figure_surface.py --surface {input.surface:q} {output:q} 2>&1 | tee {log:q}"
 
@@ -46,7 +46,7 @@ rule field:
     benchmark:
         "results/{scene}/benchmarks/field.tsv"
     params:
-        content=content,
+        content=content("field.py"),
     shell:
         "python3 workflow/scripts/field.py --mesh {input.mesh:q} --solution {input.solution:q}"
         " --output {output:q} 2>&1 | tee {log:q}"
@@ -64,7 +64,7 @@ rule contact_line:
     benchmark:
         "results/{scene}/benchmarks/contact_line.tsv"
     params:
-        content=content,
+        content=content("contact_line.py"),
     shell:
         "python3 workflow/scripts/contact_line.py --mesh {input.mesh:q} --output {output:q}"
         " {input.solutions:q} 2>&1 | tee {log:q}"
@@ -85,7 +85,7 @@ rule figures:
     log:
         "results/{scene}/logs/figures.log",
     params:
-        content=content,
+        content=content("figures.py"),
         title=lambda wildcards: scene(wildcards.scene).document["title"],
         options=figure_options,
     shell:
@@ -102,7 +102,7 @@ rule gallery:
     log:
         "results/logs/gallery.log",
     params:
-        content=content,
+        content=content("figure_gallery.py"),
         titles=gallery_titles,
     shell:
         "python3 workflow/scripts/figure_gallery.py --titles {params.titles:q} --fields {input.fields:q}"
@@ -121,7 +121,7 @@ rule vtu:
     benchmark:
         "results/{scene}/benchmarks/vtu_{element}.tsv"
     params:
-        content=content,
+        content=content("vtu.py"),
     shell:
         "python3 workflow/scripts/vtu.py --mesh {input.mesh:q} --solution {input.solution:q}"
         " --output {output:q} 2>&1 | tee {log:q}"

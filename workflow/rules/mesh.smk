@@ -12,7 +12,7 @@ rule mesh:
     benchmark:
         "results/benchmarks/mesh/{mesh}.tsv"
     params:
-        content=content,
+        content=content("mesh.py", mesh_source),
         domain=lambda wildcards: as_json(mesh_domain(wildcards.mesh)),
     shell:
         "python3 workflow/scripts/mesh.py --domain {params.domain:q} --output {output:q} 2>&1 | tee {log:q}"

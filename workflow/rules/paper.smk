@@ -28,7 +28,7 @@ rule figures_5_2_and_5_3:
         "results/paper/logs/figures_5_2_and_5_3.log",
     priority: 5
     params:
-        content=content,
+        content=content("figure_convergence.py"),
         asked=lambda wildcards: asked_rows_of("paper"),
         slope=lambda wildcards: scene("paper").document["slope"],
     shell:
@@ -48,7 +48,7 @@ rule check:
     log:
         "results/paper/logs/check.log",
     params:
-        content=content,
+        content=content("check.py", PUBLISHED),
         asked=lambda wildcards: asked_rows_of("paper"),
     shell:
         "python3 workflow/scripts/check.py --errors {input.errors:q} --rates {input.rates:q}"
@@ -65,7 +65,7 @@ rule verify:
     log:
         "results/paper/logs/verify.log",
     params:
-        content=content,
+        content=content("verify.py"),
     shell:
         "python3 workflow/scripts/verify.py --check {input.check:q} --output {output:q} 2>&1 | tee {log:q}"
 
@@ -81,7 +81,7 @@ rule effects:
     benchmark:
         "results/paper/benchmarks/effects.tsv"
     params:
-        content=content,
+        content=content("effects.py"),
         statement=lambda wildcards: statement_of("paper"),
         scene=lambda wildcards: as_json(scene("paper").section("elements", "levels", "truth", "norms")),
     shell:
@@ -103,7 +103,7 @@ rule macros:
     log:
         "results/paper/logs/macros.log",
     params:
-        content=content,
+        content=content("macros.py", PUBLISHED),
         asked=lambda wildcards: asked_rows_of("paper"),
         n=lambda wildcards: scene("paper").truth["n"],
     shell:
@@ -124,7 +124,7 @@ rule paper:
     log:
         "results/paper/logs/paper.log",
     params:
-        content=content,
+        content=content("paper.py", "paper/main.tex"),
         appendix=lambda wildcards: [str(path) for path in appendix()],
         digest=lambda wildcards: digest(appendix()),
     shell:

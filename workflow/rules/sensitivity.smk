@@ -17,7 +17,7 @@ rule sensitivity_errors:
         f"{SENSITIVITY}/benchmarks/errors_{{diagonal}}.tsv"
     priority: lambda wildcards: DIAGONALS.index(wildcards.diagonal)
     params:
-        content=content,
+        content=content("sensitivity_errors.py"),
         statement=lambda wildcards: statement_of("paper"),
         levels=lambda wildcards: as_json(sensitivity_levels()),
         reference=lambda wildcards: sensitivity_reference(),
@@ -38,7 +38,7 @@ rule sensitivity_combinations:
     log:
         f"{SENSITIVITY}/logs/combinations.log",
     params:
-        content=content,
+        content=content("sensitivity_combinations.py", PUBLISHED),
         levels=lambda wildcards: as_json(sensitivity_levels()),
     shell:
         "python3 workflow/scripts/sensitivity_combinations.py --published {input.published:q}"
@@ -57,7 +57,7 @@ rule figure_sensitivity:
     log:
         f"{SENSITIVITY}/logs/figure.log",
     params:
-        content=content,
+        content=content("figure_sensitivity.py"),
     shell:
         "python3 workflow/scripts/figure_sensitivity.py --combinations {input.combinations:q} --ratios {input.ratios:q}"
         " --matches-to {output.matches:q} --ratios-to {output.ratios:q} 2>&1 | tee {log:q}"
@@ -77,7 +77,7 @@ rule sensitivity:
     log:
         f"{SENSITIVITY}/logs/page.log",
     params:
-        content=content,
+        content=content("sensitivity.py", PUBLISHED),
         levels=lambda wildcards: as_json(sensitivity_levels()),
         reference=lambda wildcards: sensitivity_reference(),
         quick="--quick" if CONFIG["quick"] else "",

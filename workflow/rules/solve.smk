@@ -14,7 +14,7 @@ rule solve:
         "results/{scene}/benchmarks/solve/{element}_n{n}.tsv"
     priority: 9
     params:
-        content=content,
+        content=content("solve.py"),
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
     shell:
@@ -36,7 +36,7 @@ rule reference:
         "results/{scene}/benchmarks/reference.tsv"
     priority: 10
     params:
-        content=content,
+        content=content("solve.py"),
         statement=statement,
         method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
         element=lambda wildcards: scene(wildcards.scene).truth["element"],

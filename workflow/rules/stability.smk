@@ -44,7 +44,7 @@ rule stability_success:
     wildcard_constraints:
         family="|".join(PROBLEM_FAMILIES),
     params:
-        content=content,
+        content=content("stability_success.py"),
         seeds=f"{1000 * SEEDS} {1 if QUICK else 25}",
         few=1 if QUICK else 3,
         limit=0.1 if QUICK else 1,
@@ -63,7 +63,7 @@ rule stability_digits:
     wildcard_constraints:
         variant="|".join(VARIANTS),
     params:
-        content=content,
+        content=content("stability_digits.py"),
         statement=lambda wildcards: statement_of("paper"),
         scene=lambda wildcards: as_json(digits_asked()),
         name=lambda wildcards: wildcards.variant.removesuffix("-two-threads"),
@@ -86,7 +86,7 @@ rule stability_floor:
         piece="|".join(FLOOR),
     priority: 5
     params:
-        content=content,
+        content=content("stability_floor.py"),
         levels=lambda wildcards: list(FLOOR[wildcards.piece]),
     shell:
         "python3 workflow/scripts/stability_floor.py --piece {wildcards.piece} --levels {params.levels}"
@@ -103,7 +103,7 @@ rule stability_extremes:
     wildcard_constraints:
         kind="|".join(EXTREMES),
     params:
-        content=content,
+        content=content("stability_extremes.py"),
         values=lambda wildcards: list(EXTREMES[wildcards.kind]),
     shell:
         "python3 workflow/scripts/stability_extremes.py --kind {wildcards.kind} --output {output:q}"
@@ -124,7 +124,7 @@ rule stability_report:
     log:
         f"{STABILITY}/logs/report.log",
     params:
-        content=content,
+        content=content("stability_report.py"),
         limit=0.1 if QUICK else 1,
         seeds=SEEDS,
     shell:
@@ -143,6 +143,6 @@ rule figure_stability:
     log:
         f"{STABILITY}/logs/figures.log",
     params:
-        content=content,
+        content=content("figure_stability.py"),
     shell:
         "python3 workflow/scripts/figure_stability.py {output:q} 2>&1 | tee {log:q}"

@@ -12,7 +12,7 @@ rule table:
     log:
         "results/{scene}/logs/table.log",
     params:
-        content=content,
+        content=content("table.py"),
         asked=asked_rows,
         slope=lambda wildcards: scene(wildcards.scene).document["slope"],
     shell:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -49,6 +50,8 @@ def written(folder):
             (path.parent / "unrelated.h5").write_bytes(b"")
             try:
                 meshio.Mesh(POINTS, cells, cell_data=tags).write(path)
+                for function in path.parent.glob("*_tag.xml"):  # where meshio writes np.int64(7)
+                    function.write_text(re.sub(r"np\.int64\((\d+)\)", r"\1", function.read_text()))
                 yield path
             except (Exception, SystemExit):  # which meshio raises of what it cannot write
                 continue
@@ -75,10 +78,8 @@ def test_a_file_that_is_not_there_stands_for_itself(tmp_path):
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-@pytest.mark.parametrize(
-    "text", ["<D>\n a.h5:/x </D>", "<D>&#97;.h5:/x</D>", "<D><![CDATA[a.h5:/x]]></D>", "<D> a.h5 :/x</D>"]
-)
-def test_names_are_found_however_they_are_written(tmp_path, text, encoding):
-    (tmp_path / "m.xdmf").write_bytes(text.encode(encoding))
+@pytest.mark.parametrize("name", ["\n a.h5:/x ", "&#97;.h5:/x", "<![CDATA[a.h5:/x]]>", " a.h5 :/x"])
+def test_names_are_found_however_they_are_written(tmp_path, name, encoding):
+    (tmp_path / "m.xdmf").write_bytes(f"<D>{name}</D>".encode(encoding))
     (tmp_path / "a.h5").write_bytes(b"")
     assert files_read(tmp_path / "m.xdmf") == [tmp_path / "m.xdmf", tmp_path / "a.h5"]

@@ -3,8 +3,11 @@
 import os
 import re
 
+import numpy as np
 import pytest
 from project import LATEX, SMALL, inputs_of_scripts, left_out, modules_of, side_by_side
+
+from signorini.mesh import read_domain
 
 FIGURES = {"figures": 1}
 ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES
@@ -227,3 +230,45 @@ def test_a_mesh_file_and_the_code_that_reads_it_are_inputs(fresh, tmp_path):
     with open(fresh / "config/meshes/gasket.msh", "a") as stream:
         stream.write("\n")
     assert fresh.jobs(target) == {"mesh": 1, "solve": 1}
+    os.utime(fresh / "config/meshes/gasket.msh", (0, 0))
+    assert fresh.jobs(target) == {"mesh": 1, "solve": 1}
+
+
+SQUARE = """\
+domain: {kind: mesh, file: ../meshes/square.xdmf}
+boundary: {"1": contact, "2": neumann, "3": dirichlet, "4": neumann}
+data: {f: -1}
+levels: [1, 2]
+outputs: []
+"""
+
+
+def write_square(path, width):
+    """A square, or another rectangle, as .xdmf with its arrays in .h5; as old as the hills."""
+    import meshio
+
+    points = np.array([[0.0, 0.0], [width, 0.0], [width, 1.0], [0.0, 1.0]])
+    sides, triangles = np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.array([[0, 1, 2], [0, 2, 3]])
+    tags = {"tag": [np.array([1, 2, 3, 4]), np.array([7, 7])]}
+    meshio.Mesh(points, [("line", sides), ("triangle", triangles)], cell_data=tags).write(path)
+    for file in (path, path.with_suffix(".h5")):
+        os.utime(file, (10**9, 10**9))
+
+
+def test_a_mesh_file_is_all_that_reading_it_opens(fresh):
+    """The .h5 that an .xdmf names is rewritten, and looks old."""
+    pytest.importorskip("meshio")
+    pytest.importorskip("h5py")
+    fresh.write("config/scenes/square.yaml", SQUARE)
+    target, mesh = "results/square/solutions/P1/n1.npz", fresh / "config/meshes/square.xdmf"
+    write_square(mesh, 1.0)
+    text = mesh.read_bytes()
+    fresh.build(target)
+    assert fresh.jobs(target) == {}
+    write_square(mesh, 2.0)
+    assert mesh.read_bytes() == text
+    assert fresh.build(target).jobs == {"mesh": 1, "solve": 1}
+    (built,) = (fresh / "results/meshes").glob("[!.]*")
+    assert read_domain(built).level(1).p.max() == 2.0
+    mesh.with_suffix(".h5").unlink()
+    assert "square.xdmf" in fresh.run(target).text

@@ -118,9 +118,9 @@ class Project:
         """Set config.yaml to these scenes."""
         self.write("config/config.yaml", f"scenes: {json.dumps(scenes)}\n")
 
-    def start(self, *arguments, limits=None, **environment):
-        """Start Snakemake on two cores."""
-        command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+    def start(self, *arguments, cores="2", limits=None, **environment):
+        """Start Snakemake on two cores, or without saying on how many."""
+        command = [sys.executable, "-m", "snakemake", *(["--cores", cores] if cores else []), *arguments]
         return subprocess.Popen(
             command,
             cwd=self.folder,

@@ -1,0 +1,44 @@
+"""profiles/slurm against a real Slurm: this machine as controller and node, from Debian's slurm-wlm and munge."""
+
+import os
+import shutil
+import subprocess
+from importlib.util import find_spec
+
+import pytest
+from project import ROOT
+
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch")
+MISSING = [program for program in PROGRAMS if not shutil.which(program)]
+
+pytestmark = [
+    pytest.mark.skipif(bool(MISSING), reason=f"no {', '.join(MISSING)}: apt-get install slurm-wlm munge"),
+    pytest.mark.skipif(
+        not find_spec("snakemake_executor_plugin_slurm"), reason="pip install snakemake-executor-plugin-slurm"
+    ),
+    pytest.mark.skipif(os.geteuid() != 0, reason="a node of Slurm is started by root"),
+    pytest.mark.skipif(os.path.exists("/etc/slurm/slurm.conf"), reason="this machine has a Slurm, left alone"),
+]
+
+# This Slurm keeps no accounts; and it is looked at more often than a cluster wants to be.
+HERE = ["--slurm-status-command", "squeue", "--slurm-no-account"]
+SOON = ["--slurm-init-seconds-before-status-checks", "1", "--seconds-between-status-checks", "1"]
+
+
+@pytest.fixture
+def slurm(tmp_path):
+    folder = tmp_path / "slurm"
+    try:
+        subprocess.run([ROOT / "tests/slurm/start", folder], check=True)
+        yield
+    finally:
+        subprocess.run([ROOT / "tests/slurm/stop", folder], check=True)
+
+
+def test_jobs_run_on_a_cluster(fresh, slurm):
+    """A mesh and a solve, and a job of the benchmark, which has the node for itself."""
+    targets = ["results/small/solutions/P1/n2.npz", "results/studies/benchmark/machine.json"]
+    run = fresh.build("--workflow-profile", "profiles/slurm", *HERE, *SOON, "--", *targets, cores=None)
+    assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
+    assert run.text.count("has been submitted with SLURM jobid") == 3
+    assert all((fresh / target).is_file() for target in targets)

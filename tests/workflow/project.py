@@ -40,16 +40,17 @@ from pathlib import Path
 def tell():
     Path(os.environ["SPY"], f"{os.getpid()}.json").write_text(json.dumps([sys.argv[0], sorted(sys.modules)]))
 
-def note(event, arguments):
-    if event == "import" and arguments[0].partition(".")[0] in ("signorini", "stage"):
-        with open(os.environ["SPY"] + ".txt", "a") as stream:
-            stream.write(f"{os.environ.get('SPIED', '')} {arguments[0]}\\n")
+class Finder:
+    def find_spec(name, path=None, target=None):
+        if name.partition(".")[0] in ("signorini", "stage"):
+            with open(os.environ["SPY"] + ".txt", "a") as stream:
+                stream.write(f"{os.environ.get('SPIED', '')} {name}\\n")
 
 if os.environ.get("SPY"):
     if "workflow/scripts/" in sys.argv[0]:
         os.environ["SPIED"] = Path(sys.argv[0]).name
     atexit.register(tell)
-    sys.addaudithook(note)
+    sys.meta_path.insert(0, Finder)  # which finds nothing
 """
 
 

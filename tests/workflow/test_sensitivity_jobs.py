@@ -1,5 +1,7 @@
 """`snakemake sensitivity`: its jobs, its files, and that a quick run is no full one."""
 
+import shutil
+
 import pytest
 from project import LATEX, Project, undeclared
 
@@ -54,8 +56,5 @@ def test_an_edited_page_solves_nothing_again(built, tmp_path):
 def test_the_paper_takes_the_page_in(built_paper, built, tmp_path):
     """As its appendix, without a complaint from LaTeX; that of a full study, not of a quick one."""
     project = built_paper.copy(tmp_path / "project")
-    for name, content in built[0].results().items():
-        target = project / "results" / name.replace("quick/", "studies/")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(content)
+    shutil.copytree(built[0] / "results/quick/sensitivity", project / "results/studies/sensitivity")
     assert project.build("results/paper/paper.pdf").jobs == {"paper": 1}

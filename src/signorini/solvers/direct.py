@@ -19,7 +19,7 @@ from signorini.memory import DIRECT, check_memory
 from signorini.mesh.grid import Grid
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.count import count
-from signorini.solvers.found import NO_DIGIT, Errors, bound_of, proved, touching, wrong_signs
+from signorini.solvers.found import NO_DIGIT, Errors, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of
 
@@ -49,18 +49,18 @@ def solve_direct(problem, guess=None):
     u[problem.contact] = problem.lower
     body = _Body(problem)
     active, iterations = body.contact_set(u, guess)
-    rule, closed = Exchange(), False
+    rule, first = Exchange(), None
     for step in range(_MAX_STEPS):
         u, gap, force, left = body.refined(u, active)
         errors = body.errors(u, active, left)
-        wrong = wrong_signs(active, gap, force, errors, np.ptp(u) if step < _STRICT and not closed else None)
+        wrong = wrong_signs(active, gap, force, errors, np.ptp(u) if step < _STRICT and first is None else None)
         if not wrong.any():
             if not errors.u <= NO_DIGIT * np.ptp(u):
                 raise SolverError(_why_singular(problem))
-            near = touching(active, gap, errors, np.ptp(u))
-            if closed or not near.any():
-                return proved(u, active, iterations, gap, force, errors)
-            active, closed = active | near, True
+            found, near = proved(u, active, iterations, gap, force, errors), to_close(u, active, gap, errors)
+            if first is not None or not near.any():
+                return better(first, found)
+            first, u, active = found, u.copy(), active | near
             continue
         iterations += 1
         active[rule.choose(active, wrong, np.where(active, force, gap))] ^= True

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.solvers.residual import EPS
+from signorini.solvers.solution import SOLVED
 
 _TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
 LEAST_FORCE = 1e-6  # of the forces acting: a contact force smaller than this is not what others are measured by
@@ -96,9 +97,17 @@ def wrong_signs(active, gap, force, errors, variation=None):
     return np.where(active, force < -forces, gap < -gaps)
 
 
-def touching(active, gap, errors, variation):
-    """Contact dofs above the obstacle by round-off alone: they count as binding, so that no route decides them."""
-    return ~active & (gap <= np.minimum(errors.gaps, _TOUCHING * variation))
+def to_close(u, active, gap, errors):
+    """Contact dofs that are to bind although their gap may be positive; shape (nc,) of bool.
+
+    Above the obstacle by round-off alone they count as binding, so that no route decides them. Where rounding leaves
+    too little of u with the undecided ones apart, it may leave more with them held.
+    """
+    variation = float(np.ptp(u))
+    apart = ~active & (gap <= errors.gaps)
+    if errors.u + _largest(gap, apart) > SOLVED * variation:
+        return apart
+    return apart & (gap <= _TOUCHING * variation)
 
 
 def proved(u, active, iterations, gap, force, errors, released=0.0):
@@ -118,14 +127,21 @@ def proved(u, active, iterations, gap, force, errors, released=0.0):
         by their own forces and stiffness.
     """
     undecided = np.where(active, force <= errors.forces, gap <= errors.gaps)
-    bound, loose = active & undecided, ~active & undecided
-    moved = max(released, _largest(force / errors.stiffness, bound)) + _largest(gap, loose)
-    pressed = _largest(force, bound) + _largest(errors.loads, loose)
+    binding, apart = active & undecided, ~active & undecided
+    moved = max(released, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
+    pressed = _largest(force, binding) + _largest(errors.loads, apart)
     variation = float(np.ptp(u)) if u.size else 0.0
     accuracy = _share(errors.u + moved, variation)
     largest = _largest(force, active & ~undecided)
     largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting
     return Found(u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided)
+
+
+def better(first, second):
+    """Of two answers the second, which binds where the first is undecided, unless it knows u and forces less well."""
+    if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
+        return second
+    return min((second, first), key=lambda found: max(found.accuracy, found.multiplier_accuracy))
 
 
 def _largest(values, where):

@@ -12,7 +12,7 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.solvers.contact import Exchange, solve_contact
 from signorini.solvers.count import count
-from signorini.solvers.found import Errors, proved, touching, wrong_signs
+from signorini.solvers.found import Errors, better, proved, to_close, wrong_signs
 from signorini.solvers.residual import EPS
 from signorini.solvers.rows import Edges, Vertices, strip_of
 from signorini.solvers.solution import largest
@@ -59,7 +59,7 @@ def solve_fourier(problem, guess=None):
     u = _displacement(problem, route, _shifted_load(problem), line.settle)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] += problem.lower
-    rule, closed = Exchange(), False
+    rule, first = Exchange(), None
     for _ in range(_MAX_STEPS):
         before = line.force
         correction = _displacement(problem, route, _residual(problem, u), line.hold)
@@ -67,13 +67,14 @@ def solve_fourier(problem, guess=None):
         gap = u[problem.contact] - problem.lower
         errors = _errors(problem, u, largest(correction), largest(line.force - before), line.stiffness)
         wrong = wrong_signs(line.active, gap, line.force, errors)
-        near = touching(line.active, gap, errors, np.ptp(u))
-        if not wrong.any() and (closed or not near.any()):
-            return proved(u, line.active, line.iterations, gap, line.force, errors)
+        near = to_close(u, line.active, gap, errors)
         if wrong.any():
             line.exchange(rule.choose(line.active, wrong, np.where(line.active, line.force, gap)))
+        elif first is not None or not near.any():
+            return better(first, proved(u, line.active, line.iterations, gap, line.force, errors))
         else:
-            line.active, closed = line.active | near, True
+            first = proved(u.copy(), line.active, line.iterations, gap, line.force, errors)
+            line.active = line.active | near
         u[problem.contact[line.active]] = problem.lower[line.active]
     raise SolverError(f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best")
 
@@ -124,6 +125,7 @@ class _Line:
 
     def exchange(self, dofs):
         """Let some dofs change sides."""
+        self.active = self.active.copy()
         self.active[dofs] ^= True
         self.iterations += 1
 

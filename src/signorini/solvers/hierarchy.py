@@ -43,7 +43,7 @@ class Level:
 
     @cached_property
     def _exact(self):
-        return self.robust and self.diagonal.max() > _EXACT * self.diagonal.min()
+        return bool(self.diagonal.max() > _EXACT * self.diagonal.min())
 
     def product(self, x):
         """A x; from differences of x where entries of A differ by many powers of ten."""
@@ -89,7 +89,7 @@ def build_hierarchy(problem):
         levels.append(Level(A, _means(parents, coarser.number_of_vertices)))
         mesh, A = coarser, assemble_stiffness(coarser, ELEMENTS["P1"], k)
     below = _algebraic(A)
-    robust = robust or (len(below) > 1 and jumps(k))
+    robust = robust or (jumps(k) and (problem.element == "CR" or problem.mesh.coarser() is None))
     levels += below
     return [replace(level, robust=True) for level in levels] if robust else levels
 

@@ -22,7 +22,7 @@ from signorini.memory import MULTIGRID, check_memory
 from signorini.mesh.grid import Grid
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
-from signorini.solvers.found import NO_DIGIT, ROUNDING, Errors, bound_of, proved, touching, wrong_signs
+from signorini.solvers.found import NO_DIGIT, ROUNDING, Errors, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import HALF, STRETCHED, build_hierarchy, causes, preconditioner
 from signorini.solvers.residual import BELOW, EPS, residual_and_fluxes, rounding_of
 
@@ -91,7 +91,7 @@ def _proved(problem, search):
     stretched = not isinstance(problem.mesh, Grid) and problem.mesh.stretch > STRETCHED
     kind = find_element(problem.element)
     errors_of_A = stiffness_errors(problem.mesh, kind, problem.coefficient) if stretched else None
-    closed = False
+    first = None
     while True:
         search.run(0.0)
         inexact = 0.0 if errors_of_A is None else residual_and_fluxes(errors_of_A, 0.0 * problem.b, search.u)[1]
@@ -99,13 +99,13 @@ def _proved(problem, search):
         if not errors.u <= NO_DIGIT * np.ptp(search.u):
             raise SolverError(f"domain: no digit of the solution survives rounding: {causes(problem)}")
         wrong = wrong_signs(search.active, search.gap, search.force, errors)
-        near = touching(search.active, search.gap, errors, np.ptp(search.u))
-        if not wrong.any() and (closed or not near.any()):
-            return search.found(errors)
         if wrong.any():
             search.exchange(wrong)
-        else:
-            search.active, closed = search.active | near, True
+            continue
+        found, near = search.found(errors), to_close(search.u, search.active, search.gap, errors)
+        if first is not None or not near.any():
+            return better(first, found)
+        first, search.u, search.active = found, search.u.copy(), search.active | near
 
 
 @dataclass(frozen=True, eq=False)

@@ -250,7 +250,8 @@ class _Search:
         gaps = pushed + self.left + 2.0 * EPS * np.maximum(np.abs(self.u[c]), np.abs(self.obstacle.lower))
         acting = np.max((self.fluxes + np.abs(b))[c], initial=0.0)
         error = _SAFETY * (moved + local) + self.left
-        stiffness, together = self.levels[0].diagonal[c], np.full(c.shape, rounding.sum())
+        stiffness = self.levels[0].diagonal[c]
+        together = np.full(c.shape, _SAFETY * np.sqrt(rounding @ rounding))
         force = _SAFETY * forced + self.left_force
         forces = np.where(self.active, pressed, 0.0) + self.left_force
         return Errors(error, force, gaps, forces, together, stiffness, acting)

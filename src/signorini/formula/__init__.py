@@ -98,7 +98,7 @@ class Formula:
         FormulaError
             At the first point where the value is NaN (as for sqrt(-1): nothing is complex) or infinite.
         """
-        return self.along("", 0, x, y, check)[0]
+        return self.expand(("value",), x, y, check)[0]
 
     def gradient(self):
         """Exact partial derivatives along x and y, a pair called like the formula itself."""
@@ -112,36 +112,41 @@ class Formula:
         >>> [float(part) for part in Formula("x**2*y").value_and_gradient(3.0, 2.0)]
         [18.0, 12.0, 9.0]
         """
-        u, ux = self.along("x", 1, x, y, check)
-        return u, ux, self.along("y", 1, x, y, check)[1]
+        return tuple(self.expand(("value", "d/dx", "d/dy"), x, y, check))
 
     def laplacian(self, x, y, *, check=True):
         """Evaluate d2u/dx2 + d2u/dy2 at points; shapes, `check` and errors as in a call."""
-        from signorini.formula.taylor import total
+        return self.expand(("laplacian",), x, y, check)[0]
 
-        uxx, uyy = (self.along(axis, 2, x, y, check)[2] for axis in "xy")
-        return self.checked("laplacian", total(uxx, uyy), x, y, check)
-
-    def along(self, axis, order, x, y, check=True):
-        """Value and derivatives up to `order` along `axis`: a list of arrays, each checked."""
+    def expand(self, wanted, x, y, check=True):
+        """Evaluate several of `taylor.QUANTITIES` at once: a list of arrays; `check` and errors as in a call."""
         # Importing numpy takes 0.1 s, and reading a formula needs none of it.
         from signorini.formula.taylor import expand
 
-        names = ("value", f"d/d{axis}", f"d2/d{axis}2")
-        parts = expand(self.program, x, y, axis, order)
-        return [self.checked(name, part, x, y, check) for name, part in zip(names, parts, strict=False)]
+        found, finite = expand(self.program, wanted, x, y)
+        if check and not finite:
+            self._name_non_finite(wanted, x, y)
+        return found
 
-    def checked(self, name, values, x, y, check=True):
-        """Give the values back; FormulaError at the first one that is not finite, if they are checked."""
-        from signorini.formula.taylor import first_non_finite
+    def _name_non_finite(self, wanted, x, y):
+        """FormulaError for the first value that is not finite, of the formula or what is derived from it on the way."""
+        from signorini.formula.taylor import expand, first_non_finite
 
-        bad = first_non_finite(values, x, y) if check else None
-        if bad:
-            raise FormulaError(
-                f"{self.field}: {name} is {bad[0]!r} at (x, y) = ({bad[1]!r}, {bad[2]!r})"
-                f" in {shorten(self.text)}; leave the point out with where(condition, a, b)"
-            )
-        return values
+        for name in dict.fromkeys(step for quantity in wanted for step in _ON_THE_WAY.get(quantity, (quantity,))):
+            bad = first_non_finite(expand(self.program, (name,), x, y)[0][0], x, y)
+            if bad:
+                raise FormulaError(
+                    f"{self.field}: {name} is {bad[0]!r} at (x, y) = ({bad[1]!r}, {bad[2]!r})"
+                    f" in {shorten(self.text)}; leave the point out with where(condition, a, b)"
+                )
+
+
+# What is looked at, in this order, where a quantity is not finite: the first that is not is the one to name.
+_ON_THE_WAY = {
+    "d/dx": ("value", "d/dx"),
+    "d/dy": ("value", "d/dy"),
+    "laplacian": ("value", "d/dx", "d2/dx2", "d/dy", "d2/dy2", "laplacian"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -153,4 +158,4 @@ class Partial:
 
     def __call__(self, x, y, *, check=True):
         """Evaluate at points; shapes, `check` and errors as for a formula, whose value is checked too."""
-        return self.formula.along(self.axis, 1, x, y, check)[1]
+        return self.formula.expand((f"d/d{self.axis}",), x, y, check)[0]

@@ -1,53 +1,64 @@
-"""Run a program on arrays of points, with the first two derivatives along x or y.
+"""Derivatives of a program as expressions, by forward mode: each value travels with its first two along one axis."""
 
-Forward mode: each value travels with its derivatives along one axis. One that does not vary along the axis
-has the plain floats `du = ddu = 0.0` and meets no chain rule, where infinite slope times zero would give NaN.
-"""
-
-from functools import partial, reduce
+from functools import lru_cache, partial, reduce
 from typing import NamedTuple
 
 import numpy as np
 
-from signorini.formula.values import VALUES, compare, hypot, power, select
+from signorini.formula.expressions import Expression, Graph, compile_code, evaluate
 
 
 class Jet(NamedTuple):
     """A value with its first and second derivative along one axis."""
 
-    u: np.ndarray | float
-    du: np.ndarray | float = 0.0
-    ddu: np.ndarray | float = 0.0
+    u: Expression
+    du: Expression
+    ddu: Expression
 
     @property
     def flat(self):
-        """Whether the value is known not to vary along the axis."""
-        return all(isinstance(part, float) and part == 0.0 for part in (self.du, self.ddu))
+        """Whether the value does not vary along the axis, by its form."""
+        return self.du is self.ddu is self.u.graph.zero
 
 
-# g -> (g', g''); at the kink of abs and pos those from the right.
+def _step(name):
+    """A step of a program as a function of expressions."""
+    return lambda u, *terms: u.graph.apply(name, u, *terms)
+
+
+sqrt, exp, sin, cos, tan, sinh, cosh, tanh = map(_step, ("sqrt", "exp", "sin", "cos", "tan", "sinh", "cosh", "tanh"))
+hypot, atan2, where = map(_step, ("hypot", "atan2", "where"))
+
+
+def compare(sign, a, b):
+    """The condition that a comparison is."""
+    return a.graph.apply("compare", a, b, value=(sign,))
+
+
+# g -> (g', g''), None where it is zero throughout; at the kink of abs and pos those from the right.
 SLOPES = {
-    "negative": lambda u: (-1.0, 0.0),
-    "positive": lambda u: (1.0, 0.0),
-    "sqrt": lambda u: (0.5 / np.sqrt(u), -0.25 / (u * np.sqrt(u))),
-    "exp": lambda u: (np.exp(u), np.exp(u)),
+    "negative": lambda u: (-1.0, None),
+    "sqrt": lambda u: (0.5 / sqrt(u), -0.25 / (u * sqrt(u))),
+    "exp": lambda u: (exp(u), exp(u)),
     "log": lambda u: (1 / u, -1 / (u * u)),
-    "sin": lambda u: (np.cos(u), -np.sin(u)),
-    "cos": lambda u: (-np.sin(u), -np.cos(u)),
-    "tan": lambda u: (1 / np.cos(u) ** 2, 2 * np.tan(u) / np.cos(u) ** 2),
-    "asin": lambda u: (1 / np.sqrt((1 - u) * (1 + u)), u / ((1 - u) * (1 + u)) ** 1.5),
-    "acos": lambda u: (-1 / np.sqrt((1 - u) * (1 + u)), -u / ((1 - u) * (1 + u)) ** 1.5),
+    "sin": lambda u: (cos(u), -sin(u)),
+    "cos": lambda u: (-sin(u), -cos(u)),
+    "tan": lambda u: (1 / cos(u) ** 2, 2 * tan(u) / cos(u) ** 2),
+    "asin": lambda u: (1 / sqrt((1 - u) * (1 + u)), u / ((1 - u) * (1 + u)) ** 1.5),
+    "acos": lambda u: (-1 / sqrt((1 - u) * (1 + u)), -u / ((1 - u) * (1 + u)) ** 1.5),
     "atan": lambda u: (1 / (1 + u * u), -2 * u / (1 + u * u) ** 2),
-    "sinh": lambda u: (np.cosh(u), np.sinh(u)),
-    "cosh": lambda u: (np.sinh(u), np.cosh(u)),
-    "tanh": lambda u: (1 / np.cosh(u) ** 2, -2 * np.tanh(u) / np.cosh(u) ** 2),
-    "abs": lambda u: (np.where(u >= 0, 1.0, -1.0), 0.0),
-    "pos": lambda u: (np.where(u >= 0, 1.0, 0.0), 0.0),
+    "sinh": lambda u: (cosh(u), sinh(u)),
+    "cosh": lambda u: (sinh(u), cosh(u)),
+    "tanh": lambda u: (1 / cosh(u) ** 2, -2 * tanh(u) / cosh(u) ** 2),
+    "abs": lambda u: (where(compare(">=", u, 0.0), 1.0, -1.0), None),
+    "pos": lambda u: (where(compare(">=", u, 0.0), 1.0, 0.0), None),
 }
 
 
 def chain(value, slope, bend, t):
-    """Chain rule from g' and g''; multiplied left to right, lest du*du overflow beside a zero bend."""
+    """Chain rule from g' and g''; multiplied left to right, lest du*du overflow beside a small bend."""
+    zero = value.graph.zero
+    slope, bend = (zero if factor is None else factor for factor in (slope, bend))
     return Jet(value, slope * t.du, bend * t.du * t.du + slope * t.ddu)
 
 
@@ -65,13 +76,20 @@ def divide(s, t):
 
 def raise_to(s, t):
     """Power rule; where its coefficient p or p*(p - 1) vanishes, so does the term, at s = 0 too."""
-    w, p = power(s.u, t.u), t.u
+    w, p = s.u**t.u, t.u
     if t.flat:
-        slope = np.where(p == 0, 0.0, p * power(s.u, p - 1))
-        bend = np.where((p == 0) | (p == 1), 0.0, p * (p - 1) * power(s.u, p - 2))
+        slope = _unless((0.0,), p, lambda: p * s.u ** (p - 1))
+        bend = _unless((0.0, 1.0), p, lambda: p * (p - 1) * s.u ** (p - 2))
         return chain(w, slope, bend, s)
     exponent = multiply(t, apply("log", s))
     return Jet(w, w * exponent.du, w * (exponent.du**2 + exponent.ddu))
+
+
+def _unless(exceptions, p, make):
+    """An expression, or zero where the exponent is one of the exceptions."""
+    if p.name == "number":
+        return None if p.value in exceptions else make()
+    return reduce(lambda found, exception: where(compare("==", p, exception), 0.0, found), exceptions, make())
 
 
 def polar(a, b):
@@ -80,18 +98,23 @@ def polar(a, b):
     c, s = b.u / rho, a.u / rho
     drho, dphi = c * b.du + s * a.du, (c * a.du - s * b.du) / rho
     radius = Jet(rho, drho, c * b.ddu + s * a.ddu + rho * dphi * dphi)
-    angle = Jet(np.arctan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
+    angle = Jet(atan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
     return radius, angle
 
 
 def choose(condition, s, t):
     """Derivatives of the branch taken."""
-    return Jet(*(select(condition.u, a, b) for a, b in zip(s, t, strict=True)))
+    return Jet(*(where(condition.u, a, b) for a, b in zip(s, t, strict=True)))
 
 
-def extreme(pick, sign, *terms):
+def extreme(sign, *terms):
     """Derivatives of the least or greatest term, of the first one at a tie."""
-    return reduce(lambda s, t: choose(Jet(compare((sign,), s.u, t.u)), s, t)._replace(u=pick(s.u, t.u)), terms)
+    return reduce(lambda s, t: choose(_flat(compare(sign, s.u, t.u)), s, t), terms)
+
+
+def _flat(expression):
+    zero = expression.graph.zero
+    return Jet(expression, zero, zero)
 
 
 RULES = {
@@ -100,70 +123,87 @@ RULES = {
     "*": multiply,
     "/": divide,
     "**": raise_to,
+    "positive": lambda t: t,
     "hypot": lambda a, b: polar(a, b)[0],
     "atan2": lambda a, b: polar(a, b)[1],
-    "min": partial(extreme, np.minimum, "<="),
-    "max": partial(extreme, np.maximum, ">="),
+    "min": partial(extreme, "<="),
+    "max": partial(extreme, ">="),
     "where": choose,
 }
 
 
 def apply(name, *jets, signs=None):
     """Result of one step; those without a rule or slope (sign, step, floor, ceil, conditions) are flat."""
-    values = [jet.u for jet in jets]
     varies = not all(jet.flat for jet in jets)
     if varies and name in RULES:
         return RULES[name](*jets)
-    value = compare(signs, *values) if name == "compare" else VALUES[name](*values)
+    value = jets[0].u.graph.apply(name, *(jet.u for jet in jets), value=signs)
     if varies and name in SLOPES:
-        return chain(value, *SLOPES[name](*values), *jets)
-    return Jet(value)
+        return chain(value, *SLOPES[name](jets[0].u), *jets)
+    return _flat(value)
 
 
-def run(program, leaves):
-    """Jet left on the stack by a program; `leaves` are the jets of "x" and "y"."""
+def differentiate(graph, program, axis):
+    """The jet of a program along "x" or "y"; along neither, "", all derivatives are zero."""
+    leaves = {name: _flat(graph.variable(name)) for name in "xy"}
+    if axis:
+        leaves[axis] = leaves[axis]._replace(du=graph.number(1.0))
     stack = []
-    with np.errstate(all="ignore"):
-        for name, arity, value in program:
-            if arity:
-                stack[-arity:] = [apply(name, *stack[-arity:], signs=value)]
-            else:
-                stack.append(leaves[name] if name in leaves else Jet(np.float64(value)))
+    for name, arity, value in program:
+        if arity:
+            stack[-arity:] = [apply(name, *stack[-arity:], signs=value)]
+        else:
+            stack.append(leaves[name] if name in leaves else _flat(graph.number(value)))
     return stack[0]
 
 
-def expand(program, x, y, axis="", order=0):
-    """Value and derivatives of a program at points.
+QUANTITIES = {
+    "value": lambda along: along("").u,
+    "d/dx": lambda along: along("x").du,
+    "d2/dx2": lambda along: along("x").ddu,
+    "d/dy": lambda along: along("y").du,
+    "d2/dy2": lambda along: along("y").ddu,
+    "laplacian": lambda along: along("x").ddu + along("y").ddu,
+}
+
+
+@lru_cache(maxsize=256)
+def _code(program, wanted):
+    """Code for some of `QUANTITIES`, and for a bound on each and on the value."""
+    graph = Graph()
+    along = lru_cache(lambda axis: differentiate(graph, program, axis))
+    found = {name: QUANTITIES[name](along) for name in (*wanted, "value")}
+    bounds = [graph.bound(expression) for expression in found.values()]
+    return compile_code(graph, (*(found[name] for name in wanted), *bounds))
+
+
+def expand(program, wanted, x, y):
+    """Some quantities of a program at points.
 
     Parameters
     ----------
     program : tuple of Step
+    wanted : tuple of str
+        Of `QUANTITIES`.
     x, y : array_like of float
         Coordinates, broadcast against each other.
-    axis : {"", "x", "y"}
-        Axis to differentiate along; none for the value alone.
-    order : {0, 1, 2}
-        Highest derivative.
 
     Returns
     -------
-    list of ndarray
-        New arrays u, u', u'' up to the order, each of the broadcast shape.
+    found : list of ndarray
+        New arrays, one for each that is wanted, each of the broadcast shape.
+    finite : bool
+        Whether these and the value of the program are known to be finite at all points.
     """
     # A point does not depend on the sign of a zero among its coordinates: adding 0.0 clears it.
     x, y = (np.asarray(part, dtype=np.float64) + 0.0 for part in (x, y))
     shape = np.broadcast_shapes(x.shape, y.shape)
     # One dimension at least, so that an exponent that varies never passes for a constant one.
-    leaves = {"x": Jet(np.atleast_1d(x), float(axis == "x")), "y": Jet(np.atleast_1d(y), float(axis == "y"))}
-    jet = run(program, leaves)
-    # So does no result.
-    return [(np.broadcast_to(part, shape or (1,)) + 0.0).reshape(shape) for part in jet[: order + 1]]
-
-
-def total(a, b):
-    """Sum of two arrays, an array in no dimensions too; infinities that cancel give NaN without a warning."""
-    with np.errstate(all="ignore"):
-        return np.asarray(a + b)
+    found = evaluate(_code(program, wanted), np.atleast_1d(x), np.atleast_1d(y))
+    count = len(wanted)
+    # Adding 0.0 clears the sign of zero.
+    parts = [(np.broadcast_to(part, shape or (1,)) + 0.0).reshape(shape) for part in found[:count]]
+    return parts, bool(np.isfinite(found[count:]).all())
 
 
 def first_non_finite(values, x, y):

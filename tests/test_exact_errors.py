@@ -8,10 +8,11 @@ import pytest
 from scipy.integrate import dblquad, quad
 
 from signorini.elements import element as find_element
-from signorini.errors import exact as exact_errors
+from signorini.errors import pieces
 from signorini.errors.contact import contact_errors
-from signorini.errors.exact import RADON, ExactErrors
+from signorini.errors.exact import ExactErrors
 from signorini.errors.graded import graded, root, square
+from signorini.errors.pieces import RADON
 from signorini.exact import ExactSolution, derived_data, family, read_exact
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
@@ -130,11 +131,12 @@ def test_graded_parts_cover_each_simplex_once():
     ):
         for least in (0, 2):
             share, centroid = np.zeros(corners.shape[2]), np.zeros((2, corners.shape[2]))
-            for found, points, weights in graded(corners, [(0.0, 0.0), (5.0, 5.0)], rule, least):
-                np.add.at(share, found, weights.sum())
+            points_in_each, weights = rule
+            for found, points, shares in graded(corners, [(0.0, 0.0), (5.0, 5.0)], points_in_each, least):
+                np.add.at(share, found, shares * weights.sum())
                 for k, moment in enumerate(centroid):
                     x = (corners[k][:, found, None] * points).sum(axis=0)
-                    np.add.at(moment, found, x @ weights)
+                    np.add.at(moment, found, shares * (x @ weights))
             np.testing.assert_allclose(share, 1.0, rtol=1e-14)
             np.testing.assert_allclose(centroid, corners.mean(axis=1), rtol=0, atol=1e-15)
 
@@ -164,7 +166,7 @@ def test_chunks_do_not_matter(element, monkeypatch):
     mesh, exact = grid(12), family("punch", {"half_width": 0.3})
     u = exact.value(*nodes(mesh, element))
     whole = ExactErrors(exact).of(mesh, element, u)
-    monkeypatch.setattr(exact_errors, "_CHUNK", 1000)
+    monkeypatch.setattr(pieces, "CHUNK", 1000)
     assert ExactErrors(exact).of(mesh, element, u) == pytest.approx(whole, rel=1e-13)
 
 

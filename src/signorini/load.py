@@ -3,6 +3,7 @@
 import numpy as np
 
 from signorini.blocks import blocks
+from signorini.cells import points_on_lines, weighted
 from signorini.mesh import Grid
 from signorini.mesh.triangulation import triangle_areas
 from signorini.quadrature import interval_rule, triangle_rule
@@ -64,12 +65,9 @@ def _on_grid(grid, element, f, points, shape):
 
 def _cell_loads(grid, f, points, shape, corners, first, last):
     """What one of the two triangles of each cell adds to its three dofs, shape (3, last - first, nx)."""
-    hx, hy = grid.spacing
     local = np.zeros((3, last - first, grid.nx))
-    for q, (i, j) in enumerate(points.T @ np.array(corners)):
-        values = f(grid.x[None, :-1] + i * hx, grid.y[first:last, None] + j * hy)
-        for k in range(3):
-            local[k] += (grid.area * shape[k, q]) * values
+    for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
+        local[:, rows] += weighted(grid.area * shape[:, which], f(x, y))
     return local
 
 
@@ -124,12 +122,12 @@ def _add_flux(b, mesh, element, g):
         along = end - start
         length = np.hypot(*along)
         normal = _outward(along, mesh.points(t[3 - i - j, behind]) - start, length) if needs_normal else ()
-        for point, weight in zip(s, weights, strict=True):
+        values = weights[:, None] * length * g(*((1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]), *normal)
+        for point, at_point in zip(s, values, strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[[i, j], 0] = 1.0 - point, point
-            values = weight * length * g(*((1.0 - point) * start + point * end), *normal)
             for k, phi in enumerate(element.shape(barycentric)[:, 0]):
-                np.add.at(b, dofs[k, behind], phi * values)
+                np.add.at(b, dofs[k, behind], phi * at_point)
 
 
 def _outward(along, inward, length):

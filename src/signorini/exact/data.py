@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from signorini.exact.solution import Diffused
+from signorini.exact.solution import Diffused, FormulaSolution
 from signorini.exceptions import FormulaError
 from signorini.formula import Formula
 from signorini.statement import Data
@@ -23,12 +23,15 @@ class Derived:
         Its value where it is known to be the same everywhere.
     needs_normal : bool
         Whether it is called with the outward unit normal, as ``g(x, y, nx, ny)``: a flux, which depends on the side.
+    checked : bool
+        Whether the function itself raises where a value is not finite, so that no second look is needed.
     """
 
     field: str
     function: Callable
     constant: float | None = None
     needs_normal: bool = False
+    checked: bool = False
 
     def __call__(self, x, y, *normal, check=True):
         """Evaluate at points, where FormulaError names the first value that is not finite, if they are checked."""
@@ -38,7 +41,7 @@ class Derived:
 
         with np.errstate(all="ignore"):
             values = self.function(x, y, *normal)
-        bad = first_non_finite(values, x, y) if check else None
+        bad = first_non_finite(values, x, y) if check and not self.checked else None
         if bad:
             raise FormulaError(
                 f"{self.field}: value derived from the exact solution is {bad[0]!r} at (x, y) = "
@@ -60,10 +63,11 @@ def derived_data(exact):
         Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The obstacle is the
         solution's own, or zero where it has none.
     """
+    checked = isinstance(exact, FormulaSolution)
     return Data(
-        f=Derived("data.f", exact.load, exact.constant_load),
+        f=Derived("data.f", exact.load, exact.constant_load, checked=checked),
         g=Derived("data.g", exact.flux, needs_normal=True),
-        dirichlet=Derived("data.dirichlet", exact.value),
+        dirichlet=Derived("data.dirichlet", exact.value, checked=checked),
         obstacle=exact.obstacle or Formula("0", "data.obstacle"),
         **({"coefficient": exact.coefficient} if isinstance(exact, Diffused) else {}),
     )

@@ -17,8 +17,10 @@ from signorini.formula.values import hypot
 def square_root(x, y):
     """Real and imaginary part, both >= 0, of the square root of x + iy for y >= 0; nothing cancels."""
     larger = np.sqrt(0.5 * (hypot(x, y) + np.abs(x)))
-    smaller = np.divide(0.5 * y, larger, out=np.zeros_like(larger), where=larger > 0.0)
-    return np.where(x >= 0.0, larger, smaller), np.where(x >= 0.0, smaller, larger)
+    with np.errstate(invalid="ignore"):
+        smaller = np.where(larger > 0.0, 0.5 * y / larger, 0.0)
+    right = np.greater_equal(x, 0.0)
+    return np.where(right, larger, smaller), np.where(right, smaller, larger)
 
 
 class Harmonic(ExactSolution):
@@ -53,12 +55,24 @@ class Corner(Harmonic):
         return ((self.x0, self.y0),)
 
     def value(self, x, y):
-        x, y = np.broadcast_arrays(np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0)))
-        p, q = square_root(x, y)
-        return self.amplitude * (x * p - y * q) + 0.0
+        return self._value(*self._roots(x, y))
 
     def gradient(self, x, y):
-        p, q = square_root(*np.broadcast_arrays(np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0))))
+        return self._gradient(*self._roots(x, y))
+
+    def value_and_gradient(self, x, y):
+        found = self._roots(x, y)
+        return self._value(*found), *self._gradient(*found)
+
+    def _roots(self, x, y):
+        """Return (x, y, p, q), coordinates about the point and the square root p + iq of x + iy."""
+        x, y = np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0))
+        return x, y, *square_root(x, y)
+
+    def _value(self, x, y, p, q):
+        return self.amplitude * (x * p - y * q) + 0.0
+
+    def _gradient(self, x, y, p, q):
         return self.amplitude * (1.5 * p) + 0.0, self.amplitude * (-1.5 * q) + 0.0
 
 
@@ -88,18 +102,26 @@ class Punch(Harmonic):
         return (self.x0 - self.half_width, self.y0), (self.x0 + self.half_width, self.y0)
 
     def value(self, x, y):
-        t, _, m = self._factors(x, y)
+        return self._value(*self._factors(x, y))
+
+    def gradient(self, x, y):
+        return self._gradient(*self._factors(x, y))
+
+    def value_and_gradient(self, x, y):
+        found = self._factors(x, y)
+        return self._value(*found), *self._gradient(*found)
+
+    def _value(self, t, _, m):
         c = np.sqrt(1.0 + t * t)
         return 0.5 * self.half_width**2 * (t * c - np.arcsinh(t) - 2.0 * t * (m * m) / c)
 
-    def gradient(self, x, y):
-        _, ux, m = self._factors(x, y)
+    def _gradient(self, _, ux, m):
         return self.half_width * ux, -self.half_width * m + 0.0
 
     def _factors(self, x, y):
         """Return (t, Re s/a, Im s/a) from the roots p + iq of z/a - 1 and P + iQ of z/a + 1."""
         a = self.half_width
-        x, y = np.broadcast_arrays(np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0)) / a)
+        x, y = np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0)) / a
         p, q = square_root((x - a) / a, y)
         P, Q = square_root((x + a) / a, y)
         return p * P + q * Q, p * P - q * Q, p * Q + q * P

@@ -40,6 +40,10 @@ class ExactSolution(ABC):
     def gradient(self, x, y):
         """Partial derivatives (du/dx, du/dy) at points, a pair, unit of u per length."""
 
+    def value_and_gradient(self, x, y):
+        """(u, du/dx, du/dy) at points; subclasses share work between them."""
+        return self.value(x, y), *self.gradient(x, y)
+
     @abstractmethod
     def load(self, x, y):
         """-Laplace u at points, unit of u per length squared."""
@@ -86,7 +90,10 @@ class FormulaSolution(ExactSolution):
         return self.u(x, y)
 
     def gradient(self, x, y):
-        return self.u.value_and_gradient(x, y)[1:]
+        return tuple(self.u.expand(("d/dx", "d/dy"), x, y))
+
+    def value_and_gradient(self, x, y):
+        return self.u.value_and_gradient(x, y)
 
     def load(self, x, y):
         return 0.0 - self.u.laplacian(x, y)
@@ -133,6 +140,9 @@ class Diffused(ExactSolution):
 
     def gradient(self, x, y):
         return self.u.gradient(x, y)
+
+    def value_and_gradient(self, x, y):
+        return self.u.value_and_gradient(x, y)
 
     def load(self, x, y):
         k, kx, ky = self.coefficient.value_and_gradient(x, y)

@@ -5,13 +5,15 @@ no result needs is never computed, and constants are folded. A derivative that v
 x, is `Graph.zero`: it takes part in no product, where an infinite slope times zero would give NaN.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from signorini.formula.values import VALUES, compare
 
-_DEEPEST = 50  # levels that `Graph.bound` looks down
+_DEEPEST = 4  # levels that `Graph.bound` looks down: sixteen factors at most
 
 
 class Graph:
@@ -29,7 +31,7 @@ class Graph:
             return simpler
         if all(term.name == "number" for term in terms):
             with np.errstate(all="ignore"):
-                return self.number(_OPERATIONS[name](value, *(term.value for term in terms)))
+                return self.number(_function(name, value)(*(term.value for term in terms)))
         return self._only(name, tuple(self.number(0.0) if term is self.zero else term for term in terms), value)
 
     def number(self, value):
@@ -40,16 +42,15 @@ class Graph:
         """One of the coordinates, "x" or "y"."""
         return self._only(name, (), None)
 
-    def bound(self, expression):
-        """An expression for a number that no value of `expression` exceeds in size; not finite where one is not."""
-        return self._bound(expression, {}, 0)
+    def bound(self, expression, level=0):
+        """An expression for a number that no value of `expression` exceeds in size; not finite where one is not.
 
-    def _bound(self, expression, known, level):
-        if expression not in known:
-            rule = _BOUNDS.get(expression.name) if level < _DEEPEST else None
-            parts = [self._bound(term, known, level + 1) for term in expression.terms] if rule else [expression]
-            known[expression] = self.apply(rule or "norm", *parts)
-        return known[expression]
+        Sums and products of factors in one coordinate each are bounded by those of the factors, which are few values.
+        """
+        if expression.name in _BOUNDS and len(expression.variables) == 2 and level < _DEEPEST:
+            parts = [self.bound(term, level + 1) for term in expression.terms]
+            return self.apply(_BOUNDS[expression.name], *parts)
+        return self.apply("largest", expression)
 
     def _only(self, name, terms, value):
         key = name, terms, value if isinstance(value, tuple) else None
@@ -61,10 +62,12 @@ class Graph:
 class Expression:
     """A step on other expressions of its graph; arithmetic makes new ones. Equal only if identical."""
 
-    __slots__ = ("graph", "name", "terms", "value")
+    __slots__ = ("graph", "name", "terms", "value", "variables")
 
     def __init__(self, graph, name, terms, value):
         self.graph, self.name, self.terms, self.value = graph, name, terms, value
+        own = {name} if name in ("x", "y") else ()
+        self.variables = frozenset(own).union(*(term.variables for term in terms))
 
     def __add__(self, other):
         return self.graph.apply("+", self, other)
@@ -119,71 +122,90 @@ def _quotient(graph, a, b):
     return a if a is graph.zero or _is_one(b) else None
 
 
+def _power(graph, a, b):
+    if b.name == "number" and b.value == 0.0:
+        return graph.number(1.0)
+    return a if _is_one(b) else None
+
+
 # What a step comes to without any work, exactly; else None.
 _SIMPLER = {
     "+": _sum,
     "-": _difference,
     "*": _product,
     "/": _quotient,
+    "**": _power,
     "negative": lambda graph, a: a if a is graph.zero else None,
     "positive": lambda graph, a: a,
     "where": lambda graph, condition, a, b: a if a is b is graph.zero else None,
 }
 
-# The bound of a sum, a difference or a product by those of its terms; of anything else it is the norm of its values.
+# The bound of a sum, a difference or a product by those of its terms.
 _BOUNDS = {"+": "+", "-": "+", "*": "*", "negative": "positive"}
 
 
-def _norm(values):
-    """Euclidean norm of all values: a bound on each that one pass gives, though infinite above 1e154."""
-    flat = np.ravel(values)
-    return np.sqrt(flat @ flat) if flat.size > 1 else np.abs(flat).sum()
-
-
-_OPERATIONS = {name: lambda _, *terms, step=step: step(*terms) for name, step in VALUES.items()}
-_OPERATIONS |= {"compare": compare, "norm": lambda _, values: _norm(values)}
+def _largest(values):
+    """Size of the largest value; NaN where one is."""
+    return max(-np.min(values), np.max(values)) if np.size(values) else 0.0
 
 
 class Instruction(NamedTuple):
-    """One step of code: where its result goes, what it does to which results, and which are needed no more."""
+    """One step of code: where its result goes, what makes it of which results, and which are needed no more."""
 
     place: int
-    name: str
+    function: Callable
     terms: tuple[int, ...]
-    value: float | tuple[str, ...] | None
     spent: tuple[int, ...]
 
 
 class Code(NamedTuple):
-    """Instructions, and the places of the results."""
+    """Steps, the places of results, of x and y (or none), and what is known from the start, place by place."""
 
     instructions: tuple[Instruction, ...]
     results: tuple[int, ...]
+    variables: dict[str, int]
+    start: tuple[float | None, ...]
+
+
+def _function(name, value):
+    """What a step does to arrays."""
+    if name == "compare":
+        return partial(compare, value)
+    return _largest if name == "largest" else VALUES[name]
 
 
 def compile_code(graph, expressions):
-    """Code for some expressions of a graph."""
-    places = {expression: place for place, expression in enumerate(graph.known.values())}
-    last, waiting = {}, list(expressions)
-    needed = set(waiting)
+    """Code for some expressions of a graph, which are computed in the order in which they were made."""
+    needed = _needed(expressions)
+    ordered = [expression for expression in graph.known.values() if expression in needed]
+    places = {expression: place for place, expression in enumerate(ordered)}
+    last = {term: user for user in ordered for term in user.terms if term not in expressions}
+    spent = {user: [] for user in ordered}
+    for term, user in last.items():
+        spent[user].append(places[term])
+    steps = (
+        Instruction(
+            places[user], _function(user.name, user.value), tuple(places[term] for term in user.terms), tuple(spent[user])
+        )
+        for user in ordered
+        if user.terms
+    )
+    return Code(
+        tuple(steps),
+        tuple(places[expression] for expression in expressions),
+        {expression.name: place for expression, place in places.items() if expression.name in ("x", "y")},
+        tuple(float(e.value) if e.name == "number" else 0.0 if e is graph.zero else None for e in ordered),
+    )
+
+
+def _needed(expressions):
+    """The expressions and, through any number of steps, all their terms."""
+    needed, waiting = set(expressions), list(expressions)
     while waiting:
         new = set(waiting.pop().terms) - needed
         needed |= new
         waiting += new
-    ordered = sorted(needed, key=places.get)
-    for expression in ordered:
-        last |= dict.fromkeys(expression.terms, expression)
-    spent = {expression: [] for expression in ordered}
-    for term, user in last.items():
-        if term not in expressions:
-            spent[user].append(places[term])
-    return Code(
-        tuple(
-            Instruction(places[e], e.name, tuple(places[term] for term in e.terms), e.value, tuple(spent[e]))
-            for e in ordered
-        ),
-        tuple(places[expression] for expression in expressions),
-    )
+    return needed
 
 
 def evaluate(code, x, y):
@@ -192,14 +214,12 @@ def evaluate(code, x, y):
     What depends on x alone has the shape of x, so `x` and `y` need not be of one shape. An array is dropped after its
     last use, so that the next one may take its place in the cache.
     """
-    known = {"x": x, "y": y, "zero": np.float64(0.0)}
-    found = {}
+    found, coordinates = list(code.start), {"x": x, "y": y}
+    for name, place in code.variables.items():
+        found[place] = coordinates[name]
     with np.errstate(all="ignore"):
-        for place, name, terms, value, spent in code.instructions:
-            if terms:
-                found[place] = _OPERATIONS[name](value, *[found[term] for term in terms])
-            else:
-                found[place] = value if name == "number" else known[name]
+        for place, function, terms, spent in code.instructions:
+            found[place] = function(*[found[term] for term in terms])
             for term in spent:
-                del found[term]
+                found[term] = None
     return [found[place] for place in code.results]

@@ -27,7 +27,7 @@ def _step(name):
 
 
 sqrt, exp, sin, cos, tan, sinh, cosh, tanh = map(_step, ("sqrt", "exp", "sin", "cos", "tan", "sinh", "cosh", "tanh"))
-hypot, atan2, where = map(_step, ("hypot", "atan2", "where"))
+hypot, atan2, where, step = map(_step, ("hypot", "atan2", "where", "step"))
 
 
 def compare(sign, a, b):
@@ -50,8 +50,8 @@ SLOPES = {
     "sinh": lambda u: (cosh(u), sinh(u)),
     "cosh": lambda u: (sinh(u), cosh(u)),
     "tanh": lambda u: (1 / cosh(u) ** 2, -2 * tanh(u) / cosh(u) ** 2),
-    "abs": lambda u: (where(compare(">=", u, 0.0), 1.0, -1.0), None),
-    "pos": lambda u: (where(compare(">=", u, 0.0), 1.0, 0.0), None),
+    "abs": lambda u: (2 * step(u) - 1, None),
+    "pos": lambda u: (step(u), None),
 }
 
 

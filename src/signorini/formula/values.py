@@ -9,11 +9,18 @@ from functools import reduce
 import numpy as np
 
 EXACT_POWERS = 8.0
+_SAFE = 2.0**-400
 
 
 def hypot(a, b):
-    """sqrt(a*a + b*b), scaled by a power of two: it cannot overflow, and does not depend on the platform."""
-    _, k = np.frexp(np.maximum(np.abs(a), np.abs(b)))
+    """sqrt(a*a + b*b), scaled by a power of two: it cannot overflow, and does not depend on the platform.
+
+    Where no square comes near the ends of the range, the scaling would change no bit, and is left out.
+    """
+    larger = np.maximum(np.abs(a), np.abs(b))
+    if np.size(larger) and np.min(larger) > _SAFE and np.max(larger) < 1.0 / _SAFE:
+        return np.sqrt(a * a + b * b)
+    _, k = np.frexp(larger)
     a, b = np.ldexp(a, -k), np.ldexp(b, -k)
     return np.ldexp(np.sqrt(a * a + b * b), k)
 

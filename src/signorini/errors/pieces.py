@@ -1,0 +1,176 @@
+"""Quadrature points over a mesh, a piece at a time, with a piecewise affine function at them.
+
+Every triangle gets Radon's rule of degree 5, with seven points; near singular points it is cut into parts as in
+`errors.graded`, and so is every triangle of a coarse mesh. On a grid, all points of a line share a coordinate, and rows
+of cells that hold no such triangle need no coordinates of each: see `signorini.cells`.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.blocks import blocks
+from signorini.cells import points_on_lines, weighted
+from signorini.errors.graded import NEAR, graded, near_singular, square, times_to_cut
+from signorini.errors.projection import prolong
+from signorini.mesh import Grid
+
+_ROOT = np.sqrt(15.0)
+# Radon (1948): the centroid and two orbits of three points (1 - 2s, s, s), exact for polynomials up to degree 5.
+_ORBITS = [s + (1.0 - 3.0 * s) * np.eye(3) for s in ((6.0 - _ROOT) / 21.0, (6.0 + _ROOT) / 21.0)]
+RADON = (
+    np.concatenate([np.full((3, 1), 1 / 3), *_ORBITS], axis=1),
+    np.repeat([9 / 40, (155.0 - _ROOT) / 1200.0, (155.0 + _ROOT) / 1200.0], [1, 3, 3]),
+)
+
+FEWEST_TRIANGLES = 2**13  # fewer are cut until there are as many
+CHUNK = 2**15  # quadrature points at once
+
+
+class Field(NamedTuple):
+    """A piecewise affine function on nt triangles.
+
+    Attributes
+    ----------
+    values : ndarray, shape (3, nt)
+        At the corners of each triangle.
+    slopes : ndarray, shape (2, nt), or None
+        Its derivatives, where they are asked for.
+    weight : ndarray, shape (nt,), or None
+        Of the squared gradient in the energy norm, if it is not 1.
+    """
+
+    values: np.ndarray
+    slopes: np.ndarray | None = None
+    weight: np.ndarray | None = None
+
+
+class Piece(NamedTuple):
+    """Points, in an array whose first axis runs over the `outer` weights, and the others over the `inner` ones.
+
+    Attributes
+    ----------
+    x, y : ndarray
+        Coordinates, which broadcast to the shape of the points.
+    field : tuple of ndarray
+        The function at them and its slopes, so far as they are asked for, which broadcast alike.
+    outer, inner : ndarray or float
+        Factors of the quadrature weights, as in `graded.square`.
+    energy : tuple of ndarray or float
+        The same under the weight of the energy norm.
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    field: tuple
+    outer: np.ndarray
+    inner: np.ndarray | float
+    energy: tuple
+
+    def squared(self, values):
+        """Integral of a square over the piece, as `graded.square` gives it."""
+        return square(values.reshape(len(self.outer), -1), self.outer, self.inner)
+
+    def squared_energy(self, values):
+        """The same under the weight of the energy norm."""
+        outer, inner = self.energy
+        return square(values.reshape(len(outer), -1), outer, inner)
+
+
+def pieces(mesh, field, singular_points):
+    """Yield each `Piece` of a mesh.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    field : Field
+    singular_points : sequence of (float, float)
+    """
+    if not isinstance(mesh, Grid):
+        yield from _triangles(mesh.p, mesh.t, mesh.area, field, singular_points)
+        return
+    grid, field = _fine(mesh, field)
+    near = _near_rows(grid, singular_points)
+    if near.any():
+        cells = (np.flatnonzero(near)[:, None] * grid.nx + np.arange(grid.nx)).ravel()
+        numbers = np.concatenate([cells, grid.nx * grid.ny + cells])
+        part = Field(*(None if values is None else values[..., numbers] for values in field))
+        vertices, t = np.unique(grid.triangles(numbers).t, return_inverse=True)
+        areas = np.full(numbers.size, grid.area)
+        yield from _triangles(grid.points(vertices), t.reshape(3, -1), areas, part, singular_points, 0)
+    bounds = np.flatnonzero(np.diff(near, prepend=True, append=True))
+    for first, last in bounds.reshape(-1, 2):
+        for kind, corners in enumerate(grid.corners):
+            yield from _rows(grid, kind, corners, field, first, last)
+
+
+def _fine(grid, field):
+    """The same function on a grid with triangles enough."""
+    while grid.number_of_triangles < FEWEST_TRIANGLES:
+        grid = replace(grid, nx=2 * grid.nx, ny=2 * grid.ny)
+        field = Field(
+            prolong(grid, field.values),
+            None if field.slopes is None else np.stack([_spread(grid, slope) for slope in field.slopes]),
+            None if field.weight is None else _spread(grid, field.weight),
+        )
+    return grid, field
+
+
+def _spread(grid, constants):
+    """One value for each triangle of the coarser grid, as one for each of this one."""
+    return prolong(grid, np.broadcast_to(constants, (3, constants.size)))[0]
+
+
+def _near_rows(grid, singular_points):
+    """Rows of cells that a triangle near a singular point may lie in, (ny,) of bool."""
+    near, (hx, hy) = np.zeros(grid.ny, dtype=bool), grid.spacing
+    reach = NEAR * np.hypot(hx, hy)
+    left, right = grid.x[0] - reach, grid.x[-1] + reach
+    for x, y in singular_points:
+        if left <= x <= right:
+            near |= np.abs(0.5 * (grid.y[1:] + grid.y[:-1]) - y) <= reach + hy
+    return near
+
+
+def _rows(grid, kind, corners, field, first, last):
+    """Triangles of one kind in some rows of cells: (points, rows, columns)."""
+    points, weights = RADON
+    values, slopes, weight = (
+        None if part is None else part.reshape(-1, 2, grid.ny, grid.nx)[:, kind, first:last] for part in field
+    )
+    for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
+        at_points = [weighted(points[:, which].T, values[:, rows])]
+        at_points += [] if slopes is None else list(slopes[:, rows])
+        outer = grid.area * weights[which]
+        energy = outer, 1.0 if weight is None else weight[0, rows].ravel()
+        yield Piece(x, y, tuple(at_points), outer, 1.0, energy)
+
+
+def _triangles(p, t, area, field, singular_points, times=None):
+    """Any triangles: (triangles or their parts, points)."""
+    points, weights = RADON
+    if times is None:
+        times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
+    order = _far_first(p, t, singular_points) if times == 0 else np.arange(area.size)
+    for chunk in blocks(area.size, max(1, CHUNK // (weights.size * 4**times))):
+        numbers = order[chunk]
+        corners = p[:, t[:, numbers]]
+        for found, at, shares in graded(corners, singular_points, points, times):
+            triangles = numbers[found]
+            slopes = () if field.slopes is None else field.slopes[:, triangles, None]
+            outer = area[triangles] * shares
+            energy = outer if field.weight is None else outer * field.weight[triangles], weights
+            at_points = _at(at, field.values[:, triangles]), *slopes
+            yield Piece(*_at(at, corners[:, :, found]), at_points, outer, weights, energy)
+
+
+def _far_first(p, t, singular_points):
+    """Numbers of the triangles, those near singular points last: what is cut is then cut together."""
+    near = [near_singular(p[:, t[:, cells]], singular_points) for cells in blocks(t.shape[1])]
+    return np.argsort(np.concatenate([np.zeros(0, dtype=bool), *near]), kind="stable")
+
+
+def _at(points, values):
+    """An affine function, or several, by corner values (..., 3, m), at barycentric points (3, m or 1, q)."""
+    return sum(values[..., i, :, None] * points[i] for i in range(3))

@@ -131,12 +131,11 @@ def test_graded_parts_cover_each_simplex_once():
     ):
         for least in (0, 2):
             share, centroid = np.zeros(corners.shape[2]), np.zeros((2, corners.shape[2]))
-            points_in_each, weights = rule
-            for found, points, shares in graded(corners, [(0.0, 0.0), (5.0, 5.0)], points_in_each, least):
-                np.add.at(share, found, shares * weights.sum())
+            for found, points, shares, weights in graded(corners, [(0.0, 0.0), (5.0, 5.0)], rule, least):
+                np.add.at(share, found, shares * weights.sum(axis=-1))
                 for k, moment in enumerate(centroid):
                     x = (corners[k][:, found, None] * points).sum(axis=0)
-                    np.add.at(moment, found, shares * (x @ weights))
+                    np.add.at(moment, found, shares * (x * weights).sum(axis=1))
             np.testing.assert_allclose(share, 1.0, rtol=1e-14)
             np.testing.assert_allclose(centroid, corners.mean(axis=1), rtol=0, atol=1e-15)
 

@@ -78,7 +78,8 @@ def _distance(function, cells, values, singular_points, normal=None):
     length = np.hypot(*(cells[:, 1] - cells[:, 0]))
     squares = []
     times = times_to_cut(length.size, _FEWEST_CELLS, corners=2)
-    for found, points, shares in graded(cells, singular_points, np.stack([1.0 - s, s]), times):
+    rule = np.stack([1.0 - s, s]), weights
+    for found, points, shares, weights in graded(cells, singular_points, rule, times):
         x, y, u_h = (sum(part[i, found, None] * points[i] for i in range(2)) for part in (*cells, values))
         u = function(x, y) if normal is None else function(x, y, *normal[:, found, None])
         squares.append(square(u - u_h, length[found] * shares, weights))

@@ -149,14 +149,13 @@ def _rows(grid, kind, corners, field, first, last):
 
 def _triangles(p, t, area, field, singular_points, times=None):
     """Any triangles: (triangles or their parts, points)."""
-    points, weights = RADON
     if times is None:
         times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
     order = _far_first(p, t, singular_points) if times == 0 else np.arange(area.size)
-    for chunk in blocks(area.size, max(1, CHUNK // (weights.size * 4**times))):
+    for chunk in blocks(area.size, max(1, CHUNK // (RADON[1].size * 4**times))):
         numbers = order[chunk]
         corners = p[:, t[:, numbers]]
-        for found, at, shares in graded(corners, singular_points, points, times):
+        for found, at, shares, weights in graded(corners, singular_points, RADON, times):
             triangles = numbers[found]
             slopes = () if field.slopes is None else field.slopes[:, triangles, None]
             outer = area[triangles] * shares

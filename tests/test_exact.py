@@ -91,6 +91,14 @@ def test_methods_broadcast_and_return_new_arrays(name):
     assert exact.value(0.25, 0.5).shape == ()
 
 
+@solutions
+def test_value_and_gradient_at_once_are_those_one_by_one(name):
+    exact, points = SOLUTIONS[name], inside()
+    u, *slopes = exact.value_and_gradient(*points)
+    np.testing.assert_array_equal(u, exact.value(*points))
+    np.testing.assert_array_equal(slopes, exact.gradient(*points))
+
+
 @pytest.mark.parametrize("zero", [0.0, -0.0])
 @pytest.mark.parametrize("name", [name for name in SOLUTIONS if name != "corner above"])
 def test_signorini_conditions_on_the_contact_side(name, zero):

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 import signorini.formula
 from signorini.exceptions import FormulaError
-from signorini.formula import Formula
+from signorini.formula import Formula, values
 from signorini.formula.lexicon import FUNCTIONS, KNOWN
 
 X, Y = np.meshgrid([-1.5, -0.25, 0.0, 0.3, 2.0], [-0.75, 0.0, 0.5, 1.0])
@@ -393,6 +393,14 @@ def test_radius_scales_exactly(k):
         degree = 0 if text == "theta" else k
         scaled = Formula(text)(np.ldexp(x, k), np.ldexp(y, k))
         np.testing.assert_array_equal(scaled, np.ldexp(Formula(text)(x, y), degree))
+
+
+def test_radius_has_the_same_bits_with_and_without_scaling(monkeypatch):
+    x, y = np.random.default_rng(8).normal(size=(2, 500))
+    plain = values.hypot(x, y)
+    np.testing.assert_array_equal(values.hypot(x * 2.0**-300, y * 2.0**-300), plain * 2.0**-300)
+    monkeypatch.setattr(values, "_SAFE", np.inf)
+    np.testing.assert_array_equal(values.hypot(x, y), plain)
 
 
 @pytest.mark.parametrize(("text", "degree"), [("x**3", 3), ("r**(3/2)", 1.5), ("r**-2", -2), ("sqrt(x*y)", 1)])

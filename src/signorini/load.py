@@ -122,12 +122,12 @@ def _add_flux(b, mesh, element, g):
         along = end - start
         length = np.hypot(*along)
         normal = _outward(along, mesh.points(t[3 - i - j, behind]) - start, length) if needs_normal else ()
-        values = weights[:, None] * length * g(*((1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]), *normal)
-        for point, at_point in zip(s, values, strict=True):
+        points = (1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]
+        for point, values in zip(s, weights[:, None] * length * g(*points, *normal), strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[[i, j], 0] = 1.0 - point, point
             for k, phi in enumerate(element.shape(barycentric)[:, 0]):
-                np.add.at(b, dofs[k, behind], phi * at_point)
+                np.add.at(b, dofs[k, behind], phi * values)
 
 
 def _outward(along, inward, length):

@@ -80,7 +80,7 @@ def _cut(corners, singular_points, simplices, least):
 
 
 def near_singular(corners, singular_points):
-    """Whether a singular point lies within `NEAR` longest edges of the centroid of simplices (2, k, m), (m,) of bool."""
+    """Whether a singular point lies within `NEAR` longest edges of the centroid of each simplex (2, k, m)."""
     near = np.zeros(corners.shape[2], dtype=bool)
     if not len(singular_points):
         return near
@@ -94,7 +94,7 @@ def near_singular(corners, singular_points):
 def square(values, outer, inner):
     """Weighted sum of squares as (mantissa, exponent): the sum is mantissa times 4**exponent.
 
-    `values` are (a, b), the weights are the products of those in `outer`, (a,), and in `inner`, (b,), (a, b) or a number.
+    `values` are (a, b); weights are products of those in `outer`, (a,), and in `inner`, (b,), (a, b) or a number.
     """
     with np.errstate(over="ignore", under="ignore"):
         plain = _sum_of_squares(values, outer, inner)
@@ -109,7 +109,8 @@ _TINY = 1e-200  # sums of squares between it and its inverse have lost nothing t
 
 def _sum_of_squares(values, outer, inner):
     squares = values * values
-    return float(outer @ (squares @ inner if np.ndim(inner) == 1 else (squares * inner).sum(axis=1)))
+    squares *= inner
+    return float(outer @ squares.sum(axis=1))
 
 
 def scaled_weight(values):

@@ -148,26 +148,39 @@ def _rows(grid, kind, corners, field, first, last):
 
 
 def _triangles(p, t, area, field, singular_points, times=None):
-    """Any triangles: (triangles or their parts, points)."""
+    """Any triangles: whole ones as (points, triangles), then parts as (parts, points)."""
     if times is None:
         times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
-    order = _far_first(p, t, singular_points) if times == 0 else np.arange(area.size)
-    for chunk in blocks(area.size, max(1, CHUNK // (RADON[1].size * 4**times))):
-        numbers = order[chunk]
-        corners = p[:, t[:, numbers]]
-        for found, at, shares, weights in graded(corners, singular_points, RADON, times):
-            triangles = numbers[found]
-            slopes = () if field.slopes is None else field.slopes[:, triangles, None]
-            outer = area[triangles] * shares
-            energy = outer if field.weight is None else outer * field.weight[triangles], weights
-            at_points = _at(at, field.values[:, triangles]), *slopes
-            yield Piece(*_at(at, corners[:, :, found]), at_points, outer, weights, energy)
+    cut = np.ones(area.size, dtype=bool) if times else np.zeros(area.size, dtype=bool)
+    for cells in () if times else blocks(area.size, CHUNK // RADON[1].size):
+        corners = p[:, t[:, cells]]
+        cut[cells] = near_singular(corners, singular_points)
+        yield _whole(corners, area, field, cells, ~cut[cells])
+    for cells in blocks(np.count_nonzero(cut), max(1, CHUNK // (RADON[1].size * 4**times))):
+        yield from _parts(p, t, area, field, singular_points, times, np.flatnonzero(cut)[cells])
 
 
-def _far_first(p, t, singular_points):
-    """Numbers of the triangles, those near singular points last: what is cut is then cut together."""
-    near = [near_singular(p[:, t[:, cells]], singular_points) for cells in blocks(t.shape[1])]
-    return np.argsort(np.concatenate([np.zeros(0, dtype=bool), *near]), kind="stable")
+def _whole(corners, area, field, cells, kept):
+    """Those of a slice of the triangles that are kept."""
+    points, weights = RADON
+    kept = slice(None) if kept.all() else kept
+    values, slopes, weight = (None if part is None else part[..., cells][..., kept] for part in field)
+    x, y, u = (weighted(points.T, part) for part in (*corners[:, :, kept], values))
+    inner = area[cells][kept]
+    energy = inner if weight is None else inner * weight
+    return Piece(x, y, (u, *(() if slopes is None else slopes)), weights, inner, (weights, energy))
+
+
+def _parts(p, t, area, field, singular_points, times, numbers):
+    """Parts of triangles given by their numbers."""
+    corners = p[:, t[:, numbers]]
+    for found, at, shares, weights in graded(corners, singular_points, RADON, times):
+        triangles = numbers[found]
+        slopes = () if field.slopes is None else field.slopes[:, triangles, None]
+        outer = area[triangles] * shares
+        energy = outer if field.weight is None else outer * field.weight[triangles]
+        at_points = _at(at, field.values[:, triangles]), *slopes
+        yield Piece(*_at(at, corners[:, :, found]), at_points, outer, weights, (energy, weights))
 
 
 def _at(points, values):

@@ -132,8 +132,13 @@ class Formula:
         """FormulaError for the first value that is not finite, of the formula or what is derived from it on the way."""
         from signorini.formula.taylor import expand, first_non_finite
 
+        def first_bad(name):
+            return first_non_finite(expand(self.program, (name,), x, y)[0][0], x, y)
+
+        if not any(map(first_bad, ("value", *wanted))):
+            return
         for name in dict.fromkeys(step for quantity in wanted for step in _ON_THE_WAY.get(quantity, (quantity,))):
-            bad = first_non_finite(expand(self.program, (name,), x, y)[0][0], x, y)
+            bad = first_bad(name)
             if bad:
                 raise FormulaError(
                     f"{self.field}: {name} is {bad[0]!r} at (x, y) = ({bad[1]!r}, {bad[2]!r})"

@@ -183,13 +183,11 @@ def compile_code(graph, expressions):
     spent = {user: [] for user in ordered}
     for term, user in last.items():
         spent[user].append(places[term])
-    steps = (
-        Instruction(
-            places[user], _function(user.name, user.value), tuple(places[term] for term in user.terms), tuple(spent[user])
-        )
-        for user in ordered
-        if user.terms
-    )
+    steps = []
+    for user in ordered:
+        if user.terms:
+            terms = tuple(places[term] for term in user.terms)
+            steps.append(Instruction(places[user], _function(user.name, user.value), terms, tuple(spent[user])))
     return Code(
         tuple(steps),
         tuple(places[expression] for expression in expressions),

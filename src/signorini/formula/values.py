@@ -17,10 +17,10 @@ def hypot(a, b):
 
     Where no square comes near the ends of the range, the scaling would change no bit, and is left out.
     """
-    larger = np.maximum(np.abs(a), np.abs(b))
-    if np.size(larger) and np.min(larger) > _SAFE and np.max(larger) < 1.0 / _SAFE:
+    sizes = np.abs(a), np.abs(b)
+    if all(map(np.size, sizes)) and max(map(np.min, sizes)) > _SAFE and max(map(np.max, sizes)) < 1.0 / _SAFE:
         return np.sqrt(a * a + b * b)
-    _, k = np.frexp(larger)
+    _, k = np.frexp(np.maximum(*sizes))
     a, b = np.ldexp(a, -k), np.ldexp(b, -k)
     return np.ldexp(np.sqrt(a * a + b * b), k)
 

@@ -24,28 +24,32 @@ def points_on_lines(grid, corners, points, first, last):
 
     Yields
     ------
-    which : ndarray of int, shape (m,)
-        The rule's points at hand; each comes once with each row.
+    which : ndarray of int, shape (l, m)
+        The rule's points at hand, m on each of l lines; each comes once with each row.
     rows : slice
         The rows at hand, counted from `first`.
     x, y : ndarray
-        Coordinates, which broadcast to (m, rows, nx), axis by axis.
+        Coordinates, which broadcast to (l, m, rows, nx), axis by axis.
     """
     hx, hy = grid.spacing
-    place = (points.T @ np.array(corners)).T
-    for which, (i, j) in _lines(place):
-        x = grid.x[:-1] + i[:, None, None] * hx
-        for rows in blocks(last - first, max(1, _POINTS_AT_ONCE // (which.size * grid.nx))):
-            yield which, rows, x, grid.y[first:last][rows, None] + j[:, None, None] * hy
+    i, j = (points.T @ np.array(corners)).T
+    for lines, shared in _lines(np.stack([i, j])):
+        size = lines.shape[1] * grid.nx
+        for some in blocks(len(lines), max(1, _POINTS_AT_ONCE // (size * (last - first)))):
+            which = lines[some]
+            along, up = (one[which[:, :1] if axis == shared else which] for axis, one in enumerate((i, j)))
+            x = grid.x[:-1] + along[:, :, None, None] * hx
+            for rows in blocks(last - first, max(1, _POINTS_AT_ONCE // size)):
+                yield which, rows, x, grid.y[first:last][rows, None] + up[:, :, None, None] * hy
 
 
 def _lines(place):
-    """Group points (2, q) by one coordinate, the one with fewer values: which they are, and both, that one once."""
+    """Points (2, q) by the coordinate with fewer values: arrays (l, m) of lines with m points each, and its axis."""
     distinct, which = zip(*(np.unique(np.round(one, _DIGITS), return_inverse=True) for one in place), strict=True)
     shared = int(distinct[1].size < distinct[0].size)
-    for line in range(distinct[shared].size):
-        members = np.flatnonzero(which[shared] == line)
-        yield members, [one[members[:1] if axis == shared else members] for axis, one in enumerate(place)]
+    lines = [np.flatnonzero(which[shared] == line) for line in range(distinct[shared].size)]
+    for size in dict.fromkeys(line.size for line in lines):
+        yield np.stack([line for line in lines if line.size == size]), shared
 
 
 def weighted(weights, values):

@@ -67,7 +67,8 @@ def _cell_loads(grid, f, points, shape, corners, first, last):
     """What one of the two triangles of each cell adds to its three dofs, shape (3, last - first, nx)."""
     local = np.zeros((3, last - first, grid.nx))
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
-        local[:, rows] += weighted(grid.area * shape[:, which], f(x, y))
+        values = f(x, y)
+        local[:, rows] += weighted(grid.area * shape[:, which.ravel()], values.reshape(-1, *values.shape[2:]))
     return local
 
 

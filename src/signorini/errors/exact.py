@@ -4,7 +4,7 @@ The quadrature is that of `errors.pieces`. Measured on interpolants of the famil
 corner, punch, smooth and biactive for n = 1 to 256, the quadrature changes the L2 norm by less than 1e-5 of itself and
 the H1 seminorm by less than 2e-7 (at n = 64, and less on coarser and finer meshes); for r**(2/3), singular point
 named, by less than 3e-5 and 2e-6. On meshes graded to the contact side with exponents 2 to 10 (n = 4 to 64), the same
-holds for corner, punch and r**(2/3), and it is 2e-5 and 3e-6 for the two without a singular point, smooth and biactive.
+holds for corner, punch and r**(2/3), and it is 2e-5 and 6e-6 for the two without a singular point, smooth and biactive.
 """
 
 import numpy as np

@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.blocks import blocks
 from signorini.cells import points_on_lines, weighted
-from signorini.errors.graded import NEAR, graded, near_singular, square, times_to_cut
+from signorini.errors.graded import NEAR, PARTS, graded, near_singular, square, times_to_cut
 from signorini.errors.projection import prolong
 from signorini.mesh import Grid
 
@@ -47,7 +47,7 @@ class Field(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """Points, in an array whose first axis runs over the `outer` weights, and the others over the `inner` ones.
+    """Points, in arrays whose first axes run over the `outer` weights, and the others over the `inner` ones.
 
     Attributes
     ----------
@@ -134,15 +134,15 @@ def _near_rows(grid, singular_points):
 
 
 def _rows(grid, kind, corners, field, first, last):
-    """Triangles of one kind in some rows of cells: (points, rows, columns)."""
+    """Triangles of one kind in some rows of cells: (lines, points, rows, columns)."""
     points, weights = RADON
     values, slopes, weight = (
         None if part is None else part.reshape(-1, 2, grid.ny, grid.nx)[:, kind, first:last] for part in field
     )
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
-        at_points = [weighted(points[:, which].T, values[:, rows])]
+        at_points = [np.tensordot(points[:, which], values[:, rows], axes=(0, 0))]
         at_points += [] if slopes is None else list(slopes[:, rows])
-        outer = grid.area * weights[which]
+        outer = grid.area * weights[which.ravel()]
         energy = outer, 1.0 if weight is None else weight[0, rows].ravel()
         yield Piece(x, y, tuple(at_points), outer, 1.0, energy)
 
@@ -151,18 +151,28 @@ def _triangles(p, t, area, field, singular_points, times=None):
     """Any triangles: whole ones as (points, triangles), then parts as (parts, points)."""
     if times is None:
         times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
-    cut = np.ones(area.size, dtype=bool) if times else np.zeros(area.size, dtype=bool)
-    for cells in () if times else blocks(area.size, CHUNK // RADON[1].size):
+    rule = _composite(times)
+    near = np.zeros(area.size, dtype=bool)
+    for cells in blocks(area.size, max(1, CHUNK // rule[1].size)):
         corners = p[:, t[:, cells]]
-        cut[cells] = near_singular(corners, singular_points)
-        yield _whole(corners, area, field, cells, ~cut[cells])
-    for cells in blocks(np.count_nonzero(cut), max(1, CHUNK // (RADON[1].size * 4**times))):
-        yield from _parts(p, t, area, field, singular_points, times, np.flatnonzero(cut)[cells])
+        near[cells] = near_singular(corners, singular_points)
+        yield _whole(corners, area, field, cells, ~near[cells], rule)
+    near = np.flatnonzero(near)
+    for cells in blocks(near.size, max(1, CHUNK // rule[1].size)):
+        yield from _parts(p, t, area, field, singular_points, times, near[cells])
 
 
-def _whole(corners, area, field, cells, kept):
-    """Those of a slice of the triangles that are kept."""
+def _composite(times):
+    """Radon's rule on each part of a triangle that is cut into quarters so many times."""
     points, weights = RADON
+    for _ in range(times):
+        points, weights = np.concatenate([part.T @ points for part in PARTS[3]], axis=1), np.tile(weights / 4.0, 4)
+    return points, weights
+
+
+def _whole(corners, area, field, cells, kept, rule):
+    """Those of a slice of the triangles that are kept."""
+    points, weights = rule
     kept = slice(None) if kept.all() else kept
     values, slopes, weight = (None if part is None else part[..., cells][..., kept] for part in field)
     x, y, u = (weighted(points.T, part) for part in (*corners[:, :, kept], values))

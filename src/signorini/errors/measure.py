@@ -1,9 +1,7 @@
 """From stored solutions to the rows of errors.csv."""
 
-import numpy as np
-
 from signorini.coefficient import coefficient_on
-from signorini.errors.floor import norm_floors
+from signorini.errors.floor import RoundOff, norm_floors, round_off_alone
 from signorini.norms import CONTACT
 from signorini.statement import ProblemStatement, read_coefficient
 
@@ -28,14 +26,21 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     """
     from signorini.errors.reference import ReferenceErrors
 
-    mesh, coefficient, size = domain.level(truth.n), read_coefficient(coefficient), _largest(truth.u)
-    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, _weight(mesh, coefficient, norms))
+    mesh, coefficient = domain.level(truth.n), read_coefficient(coefficient)
+    weight, rounding = _weight(mesh, coefficient, norms), RoundOff.of(truth)
+    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
+    noise = norm_floors(mesh, rounding, norms, weight)
 
     def of(found):
         mesh = domain.level(found.n)
-        accuracy, weight = max(found.accuracy, truth.accuracy), _weight(mesh, coefficient, norms)
-        floors = norm_floors(mesh, max(size, _largest(found.u)), accuracy, norms, weight)
-        return _with_floor(errors.of(mesh, found.element, found.u), floors)
+        both = rounding.together_with(RoundOff.of(found))
+        floors = norm_floors(mesh, both, norms, _weight(mesh, coefficient, norms))
+
+        def unresolved(doubtful):
+            parts = errors.unresolved(mesh, doubtful)
+            return {norm: part if part > noise[norm] else 0.0 for norm, part in parts.items()}
+
+        return _with_floor(errors.of(mesh, found.element, found.u), floors, unresolved)
 
     return of
 
@@ -44,6 +49,7 @@ def against_exact(statement, domain, norms):
     """The same against the exact truth of a scene's statement (a mapping), with the errors on the contact part."""
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
+    from signorini.errors.unresolved import unresolved
 
     problem = ProblemStatement.from_mapping(statement)
     exact, coefficient = problem.exact, problem.data.coefficient
@@ -57,7 +63,8 @@ def against_exact(statement, domain, norms):
         if on_contact:
             contact = contact_errors(mesh, found.element, found, exact)
             result |= {norm: contact[norm] for norm in on_contact}
-        return _with_floor(result, norm_floors(mesh, _largest(found.u), found.accuracy, norms, weight))
+        floors = norm_floors(mesh, RoundOff.of(found), norms, weight)
+        return _with_floor(result, floors, lambda doubtful: unresolved(mesh, exact, doubtful, weight))
 
     return of
 
@@ -67,17 +74,18 @@ def _weight(mesh, coefficient, norms):
     return coefficient_on(mesh, coefficient) if {"energy", "multiplier_l2"} & set(norms) else None
 
 
-def _largest(u):
-    return float(np.max(np.abs(u), initial=0.0))
-
-
-def _with_floor(errors, floors):
-    at_floor = [norm for norm, floor in floors.items() if errors[norm] is not None and errors[norm] <= floor]
-    return errors | {"floor": " ".join(at_floor)}
+def _with_floor(errors, floors, unresolved):
+    return errors | {"floor": " ".join(round_off_alone(errors, floors, unresolved))}
 
 
 def row(found, errors):
     """The row of a stored solution: what it is, its errors, and how it was found."""
     what = {"element": found.element, "n": found.n, "h": found.h, "dofs": found.dofs}
-    how = {"residual": found.residual, "status": found.status, "iterations": found.iterations, "method": found.method}
-    return what | errors(found) | how
+    proof = {
+        "residual": found.residual,
+        "accuracy": found.accuracy,
+        "multiplier_accuracy": found.multiplier_accuracy,
+        "undecided": int(found.undecided.sum()),
+    }
+    how = {"status": found.status, "iterations": found.iterations, "method": found.method}
+    return what | errors(found) | proof | how

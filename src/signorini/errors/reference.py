@@ -90,13 +90,27 @@ class ReferenceErrors:
             squares["h1"] = squares["l2"] + squares["h1_semi"]
         if "energy" in self.norms:
             squares["energy"] = self._squared_energy(mesh, values)
-        exponents = {"energy": self.exponent + self.weight_exponent}
         return {
-            norm: float(np.ldexp(np.sqrt(squares[norm]), exponents.get(norm, self.exponent)))
-            if norm in squares
-            else None
+            norm: self._root(norm, squares[norm]) if norm in squares else None
             for norm in dict.fromkeys((*NORMS, *self.norms))
         }
+
+    def unresolved(self, mesh, norms):
+        """Norms of what no function that is affine on each triangle of `mesh` has of the reference: norm -> value.
+
+        A part of every error that `of` finds on this mesh, if integrated exactly.
+        """
+        rest = {
+            "l2": lambda: self._at(self._affine, mesh)[1],
+            "h1_semi": lambda: self._at(self._constant, mesh)[1],
+            "h1": lambda: self._at(self._affine, mesh)[1] + self._at(self._constant, mesh)[1],
+            "energy": lambda: self._at(self._constant if self.weight is None else self._weighted, mesh)[1],
+        }
+        return {norm: self._root(norm, rest[norm]()) for norm in norms}
+
+    def _root(self, norm, square):
+        exponent = self.exponent + (self.weight_exponent if norm == "energy" else 0)
+        return float(np.ldexp(np.sqrt(square), exponent))
 
     def _squared_l2(self, mesh, values):
         if self.quadrature != "exact":

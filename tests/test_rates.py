@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 from builders import grid, statement
 from signorini.elements import ELEMENTS
 from signorini.elements import element as find_element
+from signorini.errors import ReferenceErrors
 from signorini.exceptions import SignoriniError
 from signorini.formula import Formula
 from signorini.problem import discretize_on
 from signorini.quadrature import triangle_rule
-from signorini.rates import slopes
+from signorini.rates import rate_rows, reference_note, slopes
 from signorini.solvers import solve
 
 
@@ -57,6 +58,69 @@ def test_a_slope_needs_two_levels(h):
 def test_an_error_without_logarithm_is_named(bad):
     with pytest.raises(SignoriniError, match=r"rates: the error at h = 0\.25 is .*, which has no logarithm"):
         slopes([0.5, 0.25], [0.1, bad])
+
+
+def errors_of(**columns):
+    """Rows of errors.csv of P1 by level, with the norms as given."""
+    known = {"floor": [""] * 4} | columns
+    length = len(next(iter(columns.values())))
+    return [
+        {"element": "P1", "n": 2**k, "h": 0.5**k} | {name: column[k] for name, column in known.items()}
+        for k in range(length)
+    ]
+
+
+def test_distances_of_critical_points_have_slopes():
+    found = rate_rows(errors_of(critical_points=[0.4, 0.2, 0.1]))
+    assert [(row["kind"], row["floor"]) for row in found] == [("mean", "0"), ("fit", "0")]
+    assert [row["slope"] for row in found] == pytest.approx([1.0, 1.0])
+
+
+@pytest.mark.parametrize("bad", [0.0, float("inf")])
+def test_a_distance_that_is_zero_or_for_want_of_a_point_infinite_has_none_and_takes_none_from_other_norms(bad):
+    found = rate_rows(errors_of(l2=[0.4, 0.1, 0.025], critical_points=[0.4, bad, 0.1]))
+    slope = {(row["norm"], row["floor"]): row["slope"] for row in found if row["kind"] == "mean"}
+    assert slope == {("l2", "0"): pytest.approx(2.0), ("critical_points", "zero"): None}
+
+
+def test_a_solution_that_is_the_reference_has_no_slope_in_any_norm():
+    found = rate_rows(errors_of(l2=[0.4, 0.1, 0.0], h1=[4.0, 2.0, 0.0], floor=["", "", "reference"]))
+    assert {(row["norm"], row["slope"], row["floor"]) for row in found} == {
+        ("l2", None, "reference"),
+        ("h1", None, "reference"),
+    }
+
+
+def test_a_reference_below_four_times_the_finest_level_is_said_to_bend_the_last_slope():
+    twice = reference_note({"kind": "reference", "n": 64, "element": "P1"}, [4, 8, 16, 32], ["P1", "CR"])
+    assert "n = 64, is only 2 times as fine as the finest level" in twice
+    assert "errors of P1 are about 25 % too small in L2 and 13 % in H1, and the last slope about 0.32 and 0.16" in twice
+    assert "the last slope of CR is up to 0.23 too low in L2 and 0.12 in H1; n = 128 or more" in twice
+    same = reference_note({"kind": "reference", "n": 32, "element": "CR"}, [16, 32], ["CR"])
+    assert "no finer than the finest level: there CR is the reference itself and has neither error nor slope" in same
+    assert "P1" not in same
+    for truth in ({"kind": "reference", "n": 128, "element": "P1"}, {"kind": "exact"}, {"kind": "none"}):
+        assert reference_note(truth, [16, 32], ["P1"]) is None
+
+
+@pytest.mark.parametrize("own", ELEMENTS)
+def test_what_a_reference_does_to_the_last_slope_is_what_the_note_says(own):
+    """On the paper's problem, levels 16 and 32, the last slope against n = 64 less that against n = 512."""
+    asked = statement(f="2*pi*sin(2*pi*x)", load_quadrature="centroid")
+    solved = {(e, n): solve(discretize_on(grid(n), e, asked)).u for e in ELEMENTS for n in (16, 32, 64, 512)}
+    last = {}
+    for n in (64, 512):
+        truth = ReferenceErrors(grid(n), own, solved[own, n], ["l2", "h1_semi"])
+        for e in ELEMENTS:
+            coarse, fine = (truth.of(grid(m), e, solved[e, m]) for m in (16, 32))
+            last[n, e] = [np.log2(coarse[norm] / fine[norm]) for norm in ("l2", "h1_semi")]
+    (other,) = set(ELEMENTS) - {own}
+    l2, h1 = np.subtract(last[64, own], last[512, own])
+    assert 0.1 < l2 < 0.34
+    assert h1 == pytest.approx(0.16, abs=0.01)
+    l2, h1 = np.subtract(last[64, other], last[512, other])
+    assert -0.23 < l2 < -0.03
+    assert -0.12 < h1 < -0.03
 
 
 class Convergence:

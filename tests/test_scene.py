@@ -535,3 +535,26 @@ def test_the_sides_of_a_polygon_may_be_named_as_labels_are(load):
     mesh = scene.problem.triangulations.level(2)
     assert (mesh.p[0, mesh.boundary_vertices("contact")] == 1).all()
     assert (mesh.p[1, mesh.boundary_vertices("dirichlet")] == 0).all()
+
+
+def test_critical_points_that_nobody_has_named_cannot_be_measured(load):
+    exact = """\
+domain: {kind: rectangle}
+boundary: {top: dirichlet, bottom: contact, left: dirichlet, right: dirichlet}
+levels: [2, 4]
+norms: [l2, critical_points]
+"""
+    unnamed = exact + "truth: {kind: exact, u: r**1.5*cos(1.5*theta)}\n"
+    with pytest.raises(SceneError, match=r"norms: critical_points needs .* list them in truth\.critical_points, \[\["):
+        load(unnamed)
+    load(unnamed.replace("theta)}", "theta), critical_points: [[0, 0]]}"))
+    with pytest.raises(SceneError, match="the family patch has none; drop critical_points from norms"):
+        load(exact + "truth: {kind: exact, family: patch}\n")
+
+
+@pytest.mark.parametrize(("n", "warned"), [(8, True), (16, True), (32, False)])
+def test_a_reference_that_is_hardly_finer_is_warned_of(load, n, warned):
+    scene = load(changed("n: 32", f"n: {n}"))
+    assert bool(scene.warnings) == warned
+    assert all(line.startswith(f"truth.n: the reference, n = {n}, is ") for line in scene.warnings)
+    assert load(changed("n: 32", f"n: {n}") + "outputs: [figures]\n").warnings == []

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from signorini.macros import OPTIONAL, REQUIRED, check_summary, macros, paper_values
-from signorini.tables import error_table, markdown_table
+from signorini.tables import TEX, error_table, markdown_table
 
 ROOT = Path(__file__).parents[1]
 PRINTED = list(csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines()))  # the paper's
@@ -250,3 +250,54 @@ def test_a_missing_slope_of_round_off_is_a_marked_dash():
     rates = [{"element": "P1", "norm": "l2", "kind": "mean", "slope": "", "floor": "1"}]
     table = markdown_table([{"element": "P1", "n": 2, "l2": 0}], rates, norms=["l2"], elements=["P1"])
     assert "| slope | --* |" in table
+
+
+@pytest.mark.parametrize(("make", "marks"), [(error_table, ("$^\\dagger$",)), (markdown_table, ("†",))])
+def test_rows_of_an_inaccurate_solve_are_marked_and_the_note_tells_the_worst(make, marks):
+    proof = {"residual": "1e-16", "accuracy": "3.4e-07", "multiplier_accuracy": ""}
+    errors = [
+        {"element": "P1", "n": 2, "l2": 0.25, "status": "solved"} | proof,
+        {"element": "P1", "n": 4, "l2": 1.25e-7, "status": "inaccurate"} | proof,
+        {"element": "CR", "n": 4, "l2": "", "status": "inaccurate", "accuracy": "0.5"},
+    ]
+    table = make(errors, [], norms=["l2"], elements=["P1"])
+    marked = [line for line in table.splitlines() if marks[0] in line]
+    assert len(marked) == 2
+    assert marked[0].lstrip("| ").startswith("4 ")
+    assert f"solved inaccurately, not to ten digits of u and of the contact force (at worst {3.4e-7:.0e}" in marked[1]
+    both = make(errors, [], norms=["l2"], elements=["P1", "CR"])
+    assert "--" + marks[0] not in both  # a dash has nothing to mark
+    assert "(at worst 5e-01" in both
+    clean = make([row | {"status": "solved"} for row in errors], [], norms=["l2"])
+    assert marks[0] not in clean
+
+
+def test_latex_keeps_a_power_of_ten_and_its_mark_apart():
+    errors = [{"element": "CR", "n": 4, "h1": 1.25e-7, "status": "inaccurate"}]
+    table = error_table(errors, [], norms=["h1"], elements=["CR"])
+    assert r"4 & $1.2500\times10^{-7}$$^\dagger$ \\" in table
+
+
+@pytest.mark.parametrize(
+    ("floor", "mark", "said"),
+    [
+        ("reference", "‡", "is the reference itself and has no error"),
+        ("zero", "§", "a distance in this column is zero"),
+    ],
+)
+def test_a_slope_that_is_not_there_says_why_and_does_not_blame_round_off(floor, mark, said):
+    rates = [{"element": "P1", "norm": "l2", "kind": "mean", "slope": "", "floor": floor}]
+    errors = [{"element": "P1", "n": 2, "l2": 0.1}]
+    table = markdown_table(errors, rates, norms=["l2"], elements=["P1"])
+    assert f"| slope | --{mark} |" in table
+    assert said in table
+    assert "round-off" not in table
+    assert (f"--{TEX[mark]}" in error_table(errors, rates, norms=["l2"], elements=["P1"])) == (mark in TEX)
+
+
+def test_a_note_stands_under_the_table():
+    errors = [{"element": "P1", "n": 2, "l2": 0.1, "critical_points": 0.2}]
+    assert markdown_table(errors, [], norms=["l2"], elements=["P1"], note="25 % off").endswith("\nNote: 25 % off.\n")
+    assert r"{Note: 25 \% off.} \\" in error_table(errors, [], norms=["l2"], elements=["P1"], note="25 % off")
+    assert "distances jump" in markdown_table(errors, [], norms=["critical_points"], elements=["P1"])
+    assert "Note" not in markdown_table(errors, [], norms=["l2"], elements=["P1"], note="")

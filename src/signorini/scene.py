@@ -8,7 +8,8 @@ from functools import cache
 from pathlib import Path
 
 from signorini.exceptions import SceneError, SignoriniError
-from signorini.scene_checks import check_document
+from signorini.rates import reference_note
+from signorini.scene_checks import check_critical_points, check_document
 from signorini.schema import validated
 from signorini.statement import ProblemStatement
 from signorini.strict_yaml import load_yaml
@@ -50,6 +51,17 @@ class Scene:
     def statement(self):
         """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict."""
         return _statement(self.document)
+
+    @property
+    def reference_note(self):
+        """What a reference that is hardly finer than the finest level does to errors and slopes, or None."""
+        return reference_note(self.truth, self.levels, self.elements)
+
+    @property
+    def warnings(self):
+        """What a user should know though the scene is valid: a list of lines, each of which names its field."""
+        measured = {"errors", "rates", "table"} & set(self.document["outputs"])
+        return [f"truth.n: {self.reference_note}"] if measured and self.reference_note else []
 
     @property
     def elements(self):
@@ -109,6 +121,7 @@ def read_scene(path):
         if document["domain"]["kind"] == "mesh":
             document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
         problem = ProblemStatement.from_mapping(_statement(document))
+        check_critical_points(document, problem.exact)
     return Scene(path.stem, document, problem, path)
 
 

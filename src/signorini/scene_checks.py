@@ -32,6 +32,28 @@ def check_document(document):
     _check_outputs(document)
 
 
+def check_critical_points(document, exact):
+    """Refuse to measure distances from exact critical points that nobody has named.
+
+    Parameters
+    ----------
+    document : dict
+    exact : ExactSolution or None
+
+    Raises
+    ------
+    SceneError
+    """
+    if "critical_points" in document["norms"] and not exact.critical_points:
+        family = document["truth"].get("family")
+        remedy = (
+            f"the family {family} has none; drop critical_points from norms"
+            if family
+            else "list them in truth.critical_points, [[x, y], ...], or drop critical_points from norms"
+        )
+        raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
+
+
 def _check_rectangle(domain):
     _check_finite("domain.origin", domain["origin"])
     _check_finite("domain.size", domain["size"])

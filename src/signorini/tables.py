@@ -6,7 +6,8 @@ is correctly rounded, exact ties to even).
 
 from decimal import Decimal
 
-from signorini.rates import is_round_off
+from signorini.norms import REFERENCE
+from signorini.rates import NO_LOGARITHM, ROUND_OFF, SOUND, trouble_of
 
 NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters only)
     "l2": ("$L^2$ error", "L2", "Ltwo"),
@@ -21,26 +22,37 @@ ELEMENTS = {"P1": "CF", "CR": "NCF"}
 
 SCIENTIFIC_BELOW, SCIENTIFIC_FROM = 1e-5, 1e4  # outside, eight decimals show too few digits or too many
 MISSING = "--"
-AT_FLOOR = "*"
-NOTE = "an error in this column is round-off, the slope means nothing"
+INACCURATE = "†"
+MARKS = {ROUND_OFF: "*", REFERENCE: "‡", NO_LOGARITHM: "§", SOUND: ""}  # of a slope
+NOTES = {
+    ROUND_OFF: "an error in this column is round-off, the slope means nothing",
+    REFERENCE: "a solution in this column is the reference itself and has no error, so that there is no slope",
+    NO_LOGARITHM: "a distance in this column is zero, or infinite for want of a point, so that there is no slope",
+}
+JUMPS = "Critical points are known to half a mesh width: their distances jump, and only many levels show the slope 1."
+TEX = {"†": r"$^\dagger$", "‡": r"$^\ddagger$", "§": r"$^\S$", "%": r"\%"}
 
 
-def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8):
+def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None):
     r"""Return the LaTeX ``tabular`` of Table 5.1: a row for every N, a column for every norm and element.
 
     Parameters
     ----------
     errors : sequence of mapping
-        Rows with ``element``, ``n`` and one column per norm (dimensionless), as text or numbers.
+        Rows with ``element``, ``n`` and one column per norm (dimensionless), as text or numbers; and perhaps
+        ``status``: where it is "inaccurate" the errors are marked, and a note tells the largest of ``residual``,
+        ``accuracy`` and ``multiplier_accuracy``.
     rates : sequence of mapping
-        Rows with ``element``, ``norm``, ``kind``, ``slope``, and perhaps ``floor``: where it is 1 the slope is marked
-        and a note explains.
+        Rows with ``element``, ``norm``, ``kind``, ``slope``, and perhaps ``floor``: where it is not 0 the slope is
+        marked and a note explains.
     norms, elements : sequence of str, optional
         The columns, and their order.
     kind : str, optional
         Which slopes fill the last row: "mean" or "fit".
     decimals : int, optional
         Decimals of an error. A column with a value below 1e-5, or from 1e4 on, is in scientific notation.
+    note : str, optional
+        One more note under the table, for instance `rates.reference_note`.
 
     Returns
     -------
@@ -82,24 +94,24 @@ def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="
         r"\midrule",
         *(_tex_row(map(_tex_number, row)) for row in levels),
         r"\midrule",
-        _tex_row(slopes),
+        _tex_row(map(_tex, slopes)),
         r"\bottomrule",
         *(
-            [_tex_row([rf"\multicolumn{{{1 + width * len(norms)}}}{{r}}{{{AT_FLOOR} {NOTE}}}"])]
-            if _marked(slopes)
-            else []
+            _tex_row([rf"\multicolumn{{{1 + width * len(norms)}}}{{p{{0.9\linewidth}}}}{{{_tex(text)}}}"])
+            for text in _notes(errors, rates, norms, elements, kind, note)
         ),
         r"\end{tabular}",
     ]
     return "\n".join(lines) + "\n"
 
 
-def markdown_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8):
+def markdown_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None):
     """Return the table of `error_table`, with the same arguments, as Markdown."""
     head = ["N", *(f"{NORMS[norm][1]} {ELEMENTS[element]}" for norm in norms for element in elements)]
     rows = _grid(errors, rates, norms, elements, kind, decimals)
     table = "".join(f"| {' | '.join(row)} |\n" for row in [head, ["---:"] * len(head), *rows])
-    return table + (f"\n\\{AT_FLOOR} {NOTE}\n" if _marked(rows[-1]) else "")
+    notes = _notes(errors, rates, norms, elements, kind, note)
+    return table + "".join(f"\n{text.replace('*', chr(92) + '*')}\n" for text in notes)
 
 
 def _grid(errors, rates, norms, elements, kind, decimals):
@@ -111,18 +123,41 @@ def _grid(errors, rates, norms, elements, kind, decimals):
         raise ValueError("errors: an element and n occur twice")
     levels = sorted({n for _, n in rows})
     slopes = slopes_by_series(rates, kind)
-    marks = {(row["norm"], row["element"]): AT_FLOOR for row in rates if is_round_off(row)}
+    marks = {(row["norm"], row["element"]): MARKS[trouble_of(row)] for row in rates if row["kind"] == kind}
+    inaccurate = {key for key, row in rows.items() if row.get("status") == "inaccurate"}
     columns = [[*map(str, levels), "slope"]]
     for norm in norms:
         for element in elements:
             cells = [rows.get((element, n), {}).get(norm) for n in levels]
             slope = fixed(slopes.get((norm, element)), 2) + marks.get((norm, element), "")
-            columns.append([*_format_column(cells, decimals), slope])
+            printed = zip(levels, _format_column(cells, decimals), strict=True)
+            marked = [cell + INACCURATE * ((element, n) in inaccurate and cell != MISSING) for n, cell in printed]
+            columns.append([*marked, slope])
     return [list(row) for row in zip(*columns, strict=True)]
 
 
-def _marked(slopes):
-    return any(cell.endswith(AT_FLOOR) for cell in slopes)
+def _notes(errors, rates, norms, elements, kind, note):
+    """The lines under the table: what its marks mean, and what else is to be known."""
+    marked = [row for row in errors if row["element"] in elements and row.get("status") == "inaccurate"]
+    shown = [row for row in rates if row["kind"] == kind and row["norm"] in norms and row["element"] in elements]
+    troubles = {trouble_of(row) for row in shown}
+    notes = [_inaccurate(marked)] if marked else []
+    notes += [f"{MARKS[trouble]} {text}" for trouble, text in NOTES.items() if trouble in troubles]
+    notes += [JUMPS] if "critical_points" in norms else []
+    return notes + ([f"Note: {note}."] if note else [])
+
+
+def _inaccurate(rows):
+    """What the mark of inaccurate rows means, with the worst of what their proofs say."""
+    proofs = [float(row[name]) for row in rows for name in _PROOF if row.get(name)]
+    worst = f" (at worst {max(proofs):.0e} of them)" if proofs else ""
+    return (
+        f"{INACCURATE} solved inaccurately, not to ten digits of u and of the contact force{worst}: smaller changes of "
+        "these errors mean nothing"
+    )
+
+
+_PROOF = ("residual", "accuracy", "multiplier_accuracy")
 
 
 def _known(kind, names, table):
@@ -154,8 +189,13 @@ def _format_column(values, decimals):
 
 
 def _tex_number(text):
-    mantissa, e, exponent = text.partition("e")
-    return rf"${mantissa}\times10^{{{int(exponent)}}}$" if e else text
+    number = text.rstrip(INACCURATE)
+    mantissa, e, exponent = number.partition("e")
+    return (rf"${mantissa}\times10^{{{int(exponent)}}}$" if e else number) + _tex(text[len(number) :])
+
+
+def _tex(text):
+    return text.translate(str.maketrans(TEX))
 
 
 def _tex_row(cells):

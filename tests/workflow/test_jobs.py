@@ -207,6 +207,28 @@ def test_a_disappointed_expectation_stops_the_build(fresh):
     assert any("not as the scene expects: P1 l2 slope" in line for line in run.errors)
 
 
+def test_a_reference_that_is_hardly_finer_is_said_once_in_the_output_and_under_the_table(fresh):
+    fresh.edit("config/scenes/small.yaml", "n: 16", "n: 8")
+    run = fresh.build("results/small/table.md", "results/small/table.tex")
+    said = [line for line in run.text.splitlines() if line.startswith("warning: ")]
+    assert len(said) == 1
+    assert said[0].startswith("warning: config/scenes/small.yaml: truth.n: the reference, n = 8, is only 2 times as fine")
+    note = said[0].partition("truth.n: ")[2]
+    results = fresh.results()
+    assert f"\nNote: {note}.\n" in results["small/table.md"].decode()
+    assert f"{{Note: {note}.}}".replace("%", r"\%") in results["small/table.tex"].decode()
+
+
+def test_a_reference_that_is_the_finest_level_leaves_slopes_out_and_blames_no_round_off(fresh):
+    fresh.edit("config/scenes/small.yaml", "n: 16", "n: 4")
+    run = fresh.build()
+    assert "the reference, n = 4, is no finer than the finest level" in run.text
+    table = fresh.results()["small/table.md"].decode()
+    assert "| slope | --‡ | " in table
+    assert "is the reference itself" in table
+    assert "round-off" not in table
+
+
 def test_all_scenes_and_the_gallery_enter_the_graph_when_asked_for(fresh):
     scenes = [path.stem for path in (fresh / "config/scenes").glob("*.yaml")]
     jobs = fresh.jobs("all_scenes")

@@ -114,7 +114,15 @@ def written(name):
     if not path.is_file():
         place = f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
         raise SignoriniError(f"{place}: there is no {path}; {nearest(name, known_scenes())}")
-    return read_scene(path)
+    found = read_scene(path)
+    for line in found.warnings:
+        print(f"warning: {path}: {line}", file=sys.stderr)
+    return found
+
+
+def reference_note(wildcards):
+    """What a table says of a reference that is hardly finer than the finest level; empty where it is fine enough."""
+    return scene(wildcards.scene).reference_note or ""
 
 
 def check_once(asked):

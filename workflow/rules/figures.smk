@@ -88,6 +88,7 @@ rule figures:
         content=content("figures.py"),
         title=lambda wildcards: scene(wildcards.scene).document["title"],
         options=figure_options,
+        note=reference_note,
     shell:
         "python3 workflow/scripts/figures.py --title={params.title:q} {params.options} --output {output:q}"
         " 2>&1 | tee {log:q}"

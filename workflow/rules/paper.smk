@@ -31,6 +31,7 @@ rule figures_5_2_and_5_3:
         content=content("figure_convergence.py"),
         asked=lambda wildcards: asked_rows_of("paper"),
         slope=lambda wildcards: scene("paper").document["slope"],
+        note=lambda wildcards: scene("paper").reference_note or "",
     shell:
         "python3 workflow/scripts/figure_convergence.py --errors {input.errors:q} --rates {input.rates:q}"
         " --asked {params.asked:q} --slope {params.slope} --l2 {output.l2:q} {output.l2_png:q}"

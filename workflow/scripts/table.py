@@ -9,12 +9,13 @@ from signorini.storage import write_text
 from signorini.tables import error_table, markdown_table
 
 
-@options("--errors", "--rates", ("--asked", {"type": json.loads}), "--slope", "--tex", "--markdown")
+@options("--errors", "--rates", ("--asked", {"type": json.loads}), "--slope", "--note", "--tex", "--markdown")
 def main(arguments):
     """errors.csv, rates.csv and what the scene asks (elements, levels, norms; JSON) to a LaTeX and a Markdown table."""
     asked = arguments.asked
     errors, rates = read_errors(arguments.errors, asked), read_rates(arguments.rates, asked)
     shown = {"norms": asked["norms"], "elements": asked["elements"], "kind": arguments.slope}
+    shown["note"] = arguments.note
     write_text(arguments.tex, error_table(errors, rates, **shown))
     write_text(arguments.markdown, markdown_table(errors, rates, **shown))
     return f"table: {len(errors)} errors"

@@ -2,7 +2,7 @@
 
 from signorini.coefficient import coefficient_on
 from signorini.errors.floor import RoundOff, norm_floors, round_off_alone
-from signorini.norms import CONTACT
+from signorini.norms import CONTACT, REFERENCE
 from signorini.statement import ProblemStatement, read_coefficient
 
 
@@ -22,7 +22,8 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     Returns
     -------
     callable
-        To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off alone.
+        To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off alone, or
+        ``"reference"`` for the truth itself.
     """
     from signorini.errors.reference import ReferenceErrors
 
@@ -40,7 +41,10 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
             parts = errors.unresolved(mesh, doubtful)
             return {norm: part if part > noise[norm] else 0.0 for norm, part in parts.items()}
 
-        return _with_floor(errors.of(mesh, found.element, found.u), floors, unresolved)
+        result = errors.of(mesh, found.element, found.u)
+        if (found.element, found.n) == (truth.element, truth.n):
+            return result | {"floor": REFERENCE}
+        return _with_floor(result, floors, unresolved)
 
     return of
 

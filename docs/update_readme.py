@@ -3,6 +3,7 @@
     python docs/update_readme.py [--check]
 
 A block from `<!-- name -->` to `<!-- end of name -->` is generated; the pictures are copies of built figures.
+Durations are those that `.ci/run` measured last, where it has run; a check lets them be off by a factor of two.
 """
 
 import argparse
@@ -22,6 +23,10 @@ from signorini.strict_yaml import load_yaml  # noqa: E402
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
 FIGURES = (*(RESULTS / f"figure_5_{k}.png" for k in (1, 2, 3)), ROOT / "results/gallery.png")
+DURATIONS = ROOT / "results/durations.csv"
+TIMED = ("paper", "test", "install")  # in the order of the text
+LEAST = 5  # seconds; shorter is told as this
+NOISE = 2.0  # the factor between what README.md says and a measurement that a check lets pass
 CHOICES = {
     "diagonal": "the other diagonal",
     "load": "the load integrated exactly",
@@ -35,6 +40,36 @@ def results():
     table = (RESULTS / "table_5_1.md").read_text(encoding="utf-8")
     line = (RESULTS / "check.txt").read_text(encoding="utf-8")
     return {"table 5.1": table, "check": f"> {line}", "choices": choices()}
+
+
+def durations(measured):
+    """What the commands of README.md take, in seconds by name, as Markdown."""
+    paper, test, install = (about(measured[name]) for name in TIMED)
+    return (
+        f"On two cores, as continuous integration measured: `make paper` {paper}, `make test` {test}, and before them\n"
+        f"the installation {install}.\n"
+    )
+
+
+def about(seconds):
+    """A duration in words: to 5 s below 90 s, else to a minute."""
+    return f"about {max(LEAST, 5 * round(seconds / 5))} s" if seconds < 90 else f"about {round(seconds / 60)} min"
+
+
+def told(text):
+    """The durations that a text tells, in seconds, in their order."""
+    return [int(number) * (60 if unit == "min" else 1) for number, unit in re.findall(r"about (\d+) (s|min)\b", text)]
+
+
+def durations_block(current, check):
+    """The block of durations: as it is where nothing was measured, or where a check finds it near enough."""
+    if not DURATIONS.is_file():
+        return current
+    with open(DURATIONS, encoding="utf-8", newline="") as stream:
+        measured = {row["command"]: float(row["seconds"]) for row in csv.DictReader(stream)}
+    pairs = list(zip(told(current), (max(LEAST, measured[name]) for name in TIMED), strict=False))
+    near = len(pairs) == len(TIMED) and all(max(pair) <= NOISE * min(pair) for pair in pairs)
+    return current if check and near else durations(measured)
 
 
 def choices():
@@ -68,6 +103,14 @@ def families():
     return "| family | solution | parameters (meaning; default) |\n| :--- | :--- | :--- |\n" + "".join(rows)
 
 
+def block(path, name):
+    """The text of a block as it is; ValueError unless it is there."""
+    found = re.search(rf"<!-- {re.escape(name)} -->\n(.*?)<!-- end of", path.read_text(encoding="utf-8"), re.S)
+    if not found:
+        raise ValueError(f"{path.name}: no block '<!-- {name} -->'")
+    return found[1]
+
+
 def filled(path, texts):
     """A file with every block replaced, as bytes; ValueError unless each is there exactly once."""
     text = path.read_text(encoding="utf-8")
@@ -85,7 +128,8 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing; fail if anything would change")
     check = parser.parse_args().check
     try:
-        wanted = {README: filled(README, results()), CONFIG_README: filled(CONFIG_README, keys())}
+        measured = {"durations": durations_block(block(README, "durations"), check)}
+        wanted = {README: filled(README, results() | measured), CONFIG_README: filled(CONFIG_README, keys())}
         wanted |= {PICTURES / figure.name: figure.read_bytes() for figure in FIGURES}
     except FileNotFoundError as error:
         sys.exit(f"error: {error.filename} is missing; run `make readme`")

@@ -212,7 +212,9 @@ def test_a_reference_that_is_hardly_finer_is_said_once_in_the_output_and_under_t
     run = fresh.build("results/small/table.md", "results/small/table.tex")
     said = [line for line in run.text.splitlines() if line.startswith("warning: ")]
     assert len(said) == 1
-    assert said[0].startswith("warning: config/scenes/small.yaml: truth.n: the reference, n = 8, is only 2 times as fine")
+    assert said[0].startswith(
+        "warning: config/scenes/small.yaml: truth.n: the reference, n = 8, is only 2 times as fine"
+    )
     note = said[0].partition("truth.n: ")[2]
     results = fresh.results()
     assert f"\nNote: {note}.\n" in results["small/table.md"].decode()

@@ -1,0 +1,13 @@
+"""One thread for linear algebra, as in the jobs; where several workers share the tests, the long ones first."""
+
+import os
+
+# On small matrices more threads are no faster but for the clock, and with a worker on each core they wait for another.
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
+
+
+def pytest_collection_modifyitems(config, items):
+    """Give one worker the builds of the workflow from the start, so that others steal short tests at the end."""
+    if hasattr(config, "workerinput"):
+        items.sort(key=lambda item: "workflow" not in item.path.parts)

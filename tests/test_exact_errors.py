@@ -13,6 +13,7 @@ from signorini.errors import pieces
 from signorini.errors.contact import contact_errors
 from signorini.errors.exact import ExactErrors
 from signorini.errors.graded import graded, root, square
+from signorini.errors.measure import against_exact
 from signorini.errors.pieces import RADON
 from signorini.exact import ExactSolution, derived_data, family, read_exact
 from signorini.exceptions import SceneError
@@ -407,3 +408,23 @@ class TestSmooth(Rates):
 
 class TestBiactive(Rates):
     exact, ceiling = family("biactive", {"left": "1/3", "right": "2/3"}), 0.03
+
+
+@elements
+@pytest.mark.parametrize(("point", "refused"), [([0.2, 0.0], False), ([0.2, 0.5], True), ([7.0, 0.0], True)])
+def test_critical_points_off_the_contact_part_are_no_silent_dash(element, point, refused):
+    mesh, truth = grid(4, labels=FREE), {"kind": "exact", "u": "1 - y", "critical_points": [point]}
+    mapping = {"domain": {}, "boundary": {}, "data": {}, "load_quadrature": "exact", "truth": truth}
+    kind = find_element(element)
+    contact = kind.boundary_dofs(mesh, "contact")
+    proof = {"accuracy": 0.0, "multiplier_accuracy": 0.0, "residual": 0.0}
+    u, active = np.ones(kind.size(mesh)), kind.nodes(mesh, contact)[0] < 0.1
+    found = SimpleNamespace(element=element, n=4, u=u, multiplier=1.0 * active, active=active, **proof)
+    errors = against_exact(mapping, SimpleNamespace(level=lambda n: mesh), ["l2", "critical_points"])
+    if refused:
+        with pytest.raises(
+            SceneError, match=r"critical_points needs exact ones on the contact part, but \(.*\) lie off"
+        ):
+            errors(found)
+    else:
+        assert errors(found)["critical_points"] <= 0.25

@@ -2,6 +2,7 @@
 
 from signorini.coefficient import coefficient_on
 from signorini.errors.floor import RoundOff, norm_floors, round_off_alone
+from signorini.exceptions import SceneError
 from signorini.norms import CONTACT, REFERENCE
 from signorini.statement import ProblemStatement, read_coefficient
 
@@ -50,7 +51,10 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
 
 
 def against_exact(statement, domain, norms):
-    """The same against the exact truth of a scene's statement (a mapping), with the errors on the contact part."""
+    """The same against the exact truth of a scene's statement (a mapping), with the errors on the contact part.
+
+    The function raises `SceneError` where critical points are asked for and none of the exact ones lies there.
+    """
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
     from signorini.errors.unresolved import unresolved
@@ -66,11 +70,21 @@ def against_exact(statement, domain, norms):
         result = errors.of(mesh, found.element, found.u, weight)
         if on_contact:
             contact = contact_errors(mesh, found.element, found, exact)
+            _check_critical_points(on_contact, contact, exact)
             result |= {norm: contact[norm] for norm in on_contact}
         floors = norm_floors(mesh, RoundOff.of(found), norms, weight)
         return _with_floor(result, floors, lambda doubtful: unresolved(mesh, exact, doubtful, weight))
 
     return of
+
+
+def _check_critical_points(norms, errors, exact):
+    if "critical_points" in norms and errors["critical_points"] is None:
+        named = ", ".join(f"({x:g}, {y:g})" for x, y in exact.critical_points)
+        raise SceneError(
+            f"norms: critical_points needs exact ones on the contact part, but {named} lie off it; mend "
+            "truth.critical_points or the family's parameters, or drop critical_points from norms"
+        )
 
 
 def _weight(mesh, coefficient, norms):

@@ -23,7 +23,7 @@ paper: .venv/ready
 	$(run) snakemake --cores $(CORES)
 
 test: .venv/ready
-	PATH="$$PWD/.venv/bin:$$PATH" $(run) pytest --numprocesses $(CORES) --dist worksteal
+	PATH="$$PWD/.venv/bin:$$PATH" $(run) pytest --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder
 
 lint: .venv/ready
 	$(run) ruff check .

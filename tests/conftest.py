@@ -8,6 +8,6 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 
 def pytest_collection_modifyitems(config, items):
-    """Give one worker the builds of the workflow from the start, so that others steal short tests at the end."""
+    """Begin with the files of the workflow, which take longest, so that the workers end together."""
     if hasattr(config, "workerinput"):
         items.sort(key=lambda item: "workflow" not in item.path.parts)

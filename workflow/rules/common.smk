@@ -128,7 +128,7 @@ def reference_note(wildcards):
 def check_once(asked):
     """Check what takes numpy and a mesh, and remember by a file that this scene has passed this library's checks."""
     domain = asked.document["domain"]
-    files = [Path(domain["file"])] if domain["kind"] == "mesh" else []
+    files = files_read(domain["file"]) if domain["kind"] == "mesh" else []
     seen = as_json([asked.statement, digest(files), digest_of_checks()])
     mark = Path(".snakemake/checked", hashlib.sha256(seen.encode()).hexdigest())
     if mark.is_file():

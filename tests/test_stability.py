@@ -242,6 +242,18 @@ def test_the_families_are_what_their_names_say():
     assert all(largest_angle(i.problem.mesh) > 150 for i in made["needles"])
     assert min(i.aspect for i in made["stretched"]) < 1e-5
     assert max(i.aspect for i in made["stretched"]) > 1e-1
+    graded = [np.concatenate([np.diff(np.unique(axis)) for axis in i.problem.mesh.p]) for i in made["graded"]]
+    assert max(steps.max() / steps.min() for steps in graded) > 1e10
+    assert {family for family in FAMILIES if made[family][0].problem.coefficient is not None} == {
+        "inclusions",
+        "layers",
+        "oscillating",
+    }
+    stiff = [i.problem.coefficient for i in made["inclusions"] if i.problem.coefficient is not None]
+    assert max(values.max() for values in stiff) > 1e10
+    assert min(values.min() for values in stiff) < 1e-4
+    constant = [instance("delaunay", "constant", "P1", seed).problem for seed in range(25)]
+    assert max(np.abs(p.lower).max() / np.ptp(np.r_[p.lower, p.fixed_values]) for p in constant) > 1e9
     scales = [np.abs(instance("delaunay", load, "P1", 0).problem.b).max() for load in ("tiny", "smooth", "huge")]
     assert scales[0] < 1e-150 < 1e-10 < scales[1] < 1e10 < 1e150 < scales[2]
 

@@ -74,7 +74,7 @@ def build_hierarchy(problem):
     """
     levels, mesh, A, k = [], problem.mesh, problem.A, problem.coefficient
     robust = False
-    if mesh.stretch > STRETCHED:
+    if not is_regular(mesh):
         return _algebraic(A, robust=True)
     if problem.element == "CR" and A.shape[0] > _SMALL:
         levels.append(Level(A, _means(mesh.facets, mesh.number_of_vertices)))
@@ -99,9 +99,14 @@ def jumps(coefficient):
     return coefficient is not None and bool(coefficient.max() > _JUMP * coefficient.min())
 
 
+def is_regular(mesh):
+    """Whether no cell of a mesh is stretched."""
+    return mesh.stretch <= STRETCHED
+
+
 def is_nested(mesh):
     """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
-    return mesh.coarser() is not None and mesh.stretch <= STRETCHED
+    return mesh.coarser() is not None and is_regular(mesh)
 
 
 def causes(problem):

@@ -19,6 +19,7 @@ METHODS = {
 }
 
 
+_MANY = 1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 _FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
 _ASKED = "asked for"
 _NEARLY_CONSTANT = 0.25  # data that vary by less of their size are shifted before solving
@@ -130,10 +131,12 @@ def _choose(problem, method):
         return "fourier", f"uniform grid, {kind}"
     if problem.b.size <= _FEW:
         return "direct", why_not
-    from signorini.solvers.hierarchy import is_nested
+    from signorini.solvers.hierarchy import is_nested, is_regular
 
     if is_nested(problem.mesh):
         return "multigrid", f"{why_not}, but refined"
+    if is_regular(problem.mesh) and problem.contact.size > _MANY:
+        return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
         return "direct", f"{why_not}, and not refined or of stretched cells"
     return "multigrid", f"{why_not}, and too large for a factorisation"

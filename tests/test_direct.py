@@ -14,7 +14,7 @@ from signorini.exceptions import SolverError
 from signorini.mesh import Triangulation
 from signorini.problem import discretize_on
 from signorini.solvers import solve
-from signorini.solvers.direct import Condensed, dissection_order
+from signorini.solvers.condensed import Condensed, dissection_order
 
 MESHES = {
     "grid": lambda labels: grid(5, 4, labels),

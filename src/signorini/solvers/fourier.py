@@ -63,8 +63,8 @@ def solve_fourier(problem, guess=None):
     for _ in range(_MAX_STEPS):
         before = line.force
         correction = _displacement(problem, route, _residual(problem, u), line.hold)
+        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
         u += correction
-        gap = u[problem.contact] - problem.lower
         errors = _errors(problem, u, largest(correction), largest(line.force - before), line.stiffness)
         wrong = wrong_signs(line.active, gap, line.force, errors)
         near = to_close(u, line.active, gap, errors)

@@ -22,19 +22,20 @@ from signorini.memory import MULTIGRID, check_memory
 from signorini.mesh.grid import Grid
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count, counting
-from signorini.solvers.found import NO_DIGIT, ROUNDING, Errors, better, bound_of, proved, to_close, wrong_signs
+from signorini.solvers.found import NO_DIGIT, ROUNDING, SAFETY, Errors, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import HALF, STRETCHED, build_hierarchy, causes, preconditioner
 from signorini.solvers.residual import BELOW, EPS, residual_and_fluxes, rounding_of
 
 _MAX_STEPS = 300
 _DIGITS = 1e-8  # to which a correction is worked out before the next residual
-_STRETCH = {"P1": 1e8, "CR": 50.0}  # of cells, beyond which no levels converge; measured
+_STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge; measured
 _PATIENCE = 60  # steps without half the error before giving up
+_STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
 _STALLED = 25  # steps without half the error after which a new residual may help
 _UNSURE = 0.5  # of the next correction: what may be left after it
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
 _RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
-_SAFETY = 3.0  # of an estimated error over the sample that it is taken from
+
 
 _log = logging.getLogger(__name__)
 
@@ -159,11 +160,6 @@ class _Search:
         self.sizes = abs(self.rows)
         u[obstacle.fixed] = obstacle.fixed_values
 
-    @property
-    def gap(self):
-        """Of the contact dofs, shape (nc,)."""
-        return self.u[self.obstacle.contact] - self.obstacle.lower
-
     def found(self, errors):
         """The answer, with its errors."""
         unsure = self.active & (self.force <= errors.forces)
@@ -211,10 +207,11 @@ class _Search:
         while True:
             descent = self._descent(tolerance)
             wrong = descent.run()
+            self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[obstacle.contact]  # before u rounds it off
             u += descent.d
             self.force = np.where(active, -descent.r[obstacle.contact], 0.0)
             stays = descent.error > 0.5 * before
-            if wrong.any() or descent.converged or (stays and descent.error <= 4.0 * EPS * np.ptp(u)):
+            if wrong.any() or descent.converged or (stays and descent.error <= _STAYS * np.ptp(u)):
                 self.left, self.left_force, self.fluxes = descent.error, descent.force_error, descent.fluxes
                 return wrong
             if stays:
@@ -247,12 +244,12 @@ class _Search:
         else:
             pushed, pressed, moved, forced = self._coarse_responses(*loads)
         local = float(np.max(rounding / self.levels[0].diagonal, where=~self.held, initial=0.0))
-        gaps = pushed + self.left + 2.0 * EPS * np.maximum(np.abs(self.u[c]), np.abs(self.obstacle.lower))
+        gaps = pushed + self.left
         acting = np.max((self.fluxes + np.abs(b))[c], initial=0.0)
-        error = _SAFETY * (moved + local) + self.left
+        error = SAFETY * (moved + local) + self.left
         stiffness = self.levels[0].diagonal[c]
-        together = np.full(c.shape, _SAFETY * np.sqrt(rounding @ rounding))
-        force = _SAFETY * forced + self.left_force
+        together = np.full(c.shape, SAFETY * np.sqrt(rounding @ rounding))
+        force = SAFETY * forced + self.left_force
         forces = np.where(self.active, pressed, 0.0) + self.left_force
         return Errors(error, force, gaps, forces, together, stiffness, acting)
 
@@ -285,6 +282,7 @@ class _Descent:
     def __init__(self, search, r, fluxes, tolerance):
         self.search, self.r, self.fluxes, self.tolerance = search, r, fluxes, tolerance
         self.d = np.zeros_like(r)
+        self.gap = search.u[search.obstacle.contact] - search.obstacle.lower
         self.converged, self.steps, self.bends = False, [], []
 
     def run(self):
@@ -327,7 +325,7 @@ class _Descent:
     def _wrong(self, z):
         """Signs that are wrong beyond rounding; and those that the next correction, give or take half, leaves so."""
         search, c = self.search, self.search.obstacle.contact
-        gap, force = search.gap + self.d[c], -self.r[c]
+        gap, force = self.gap + self.d[c], -self.r[c]
         slack = _UNSURE * search.rule.slack
         near = np.abs(z)
         gap_error = slack * np.maximum(near[c], _greatest_nearby(search.rows, near))

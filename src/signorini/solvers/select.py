@@ -22,7 +22,7 @@ METHODS = {
 _MANY = 1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 _FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
 _ASKED = "asked for"
-_NEARLY_CONSTANT = 0.25  # data that vary by less of their size are shifted before solving
+_NEARLY_CONSTANT = 2.0**-6  # Dirichlet values and obstacle that vary by less of their size are shifted
 
 
 def solve(problem, method="auto", guess=None):
@@ -69,7 +69,8 @@ def solve(problem, method="auto", guess=None):
         _check_symmetric(shifted.A)
     found, method, reason = _find(shifted, method, reason, guess)
     u, variation = found.u, np.ptp(found.u)
-    active = found.active
+    active, c = found.active, shifted.contact
+    u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
     accuracy = found.accuracy + _stored(u, constant, variation)
     status = status_of(residual, accuracy, found.multiplier_accuracy)
@@ -204,7 +205,7 @@ def _constant(problem):
 
     Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding would.
     """
-    values = problem.fixed_values if problem.fixed.size else problem.lower
+    values = np.concatenate([problem.fixed_values, problem.lower])
     low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
     if not (values.size and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))):
         return 0.0

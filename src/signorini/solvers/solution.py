@@ -44,8 +44,8 @@ class Solution:
     reason : str
         Why that route.
     constant : float
-        What u was counted from, unit of u: not zero where the Dirichlet values, or else the obstacle, vary by less
-        than a quarter of their size.
+        What u was counted from, unit of u: not zero where Dirichlet values and obstacle together vary by less than a
+        64th of their size.
     deviation : ndarray, shape (ndof,)
         u - constant, with the digits that u has no room for beside a large constant.
     problem : Problem

@@ -208,7 +208,14 @@ def compare(problem):
     rows = []
     for method in METHODS:
         row = {"element": problem.element, "dofs": problem.b.size, "contact": problem.contact.size, "method": method}
-        row |= {"active": None, "condition": condition, "difference": None, "residual": None, "status": "refused"}
+        row |= {
+            "active": None,
+            "condition": condition,
+            "difference": None,
+            "residual": None,
+            "status": "refused",
+            "stored": 0.0,
+        }
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -218,6 +225,7 @@ def compare(problem):
                 rows.append(row)
             continue
         row |= {"active": int(solution.active.sum()), "residual": solution.residual, "status": solution.status}
+        row |= {"stored": np.finfo(float).eps * float(np.max(np.abs(solution.u)) / (np.ptp(solution.u) or np.inf))}
         rows.append(row | {"difference": float(np.max(np.abs(solution.u - u))) / size})
     return rows
 

@@ -130,17 +130,15 @@ def _limits(problem, truth, decided):
 def answered(row):
     """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
 
-    Of u and of the contact forces, those alone may be inaccurate that are so in double precision, or forces that
-    undecided contact dofs might bear; and the residual may be what rounding to doubles makes of the truth's.
+    Of u and of the contact forces, those alone may be inaccurate that are so in double precision, or that undecided
+    contact dofs might move or bear; and the residual may be what rounding to doubles makes of the truth's.
     """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
     if row["status"] == "solved":
         return bool(row["residual"] <= RESIDUAL)
-    undecided = {"": 0, "multiplier_": row["undecided"]}
-    needed = all(
-        row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM or undecided[which]
-        for which in ("", "multiplier_")
+    needed = row["undecided"] or all(
+        row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM for which in ("", "multiplier_")
     )
     return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"]))
 

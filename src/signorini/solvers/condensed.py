@@ -1,0 +1,178 @@
+"""A problem's stiffness matrix factorised once, and its Schur complement on the contact dofs.
+
+Nested dissection orders the dofs with the contact dofs last, so that the trailing block of the factors is the Schur
+complement S on them: neither a second factorisation nor a solve per contact dof is needed. A spring as stiff as S on
+each contact dof, taken off S again, keeps the factors well conditioned where only the inequality, or a weak part of
+the body, holds it.
+"""
+
+import numpy as np
+
+from signorini.elements import element as find_element
+from signorini.exceptions import SolverError
+from signorini.solvers.count import count
+from signorini.solvers.hierarchy import causes
+from signorini.solvers.residual import EPS
+
+_LEAF = 8
+_SINGULAR = 1e-13  # of its diagonal entry: a pivot so small may show a loose part of the body
+_MISSED = 4.0 * EPS
+
+
+class Condensed:
+    """A problem's stiffness matrix, factorised once, and its Schur complement on the contact dofs.
+
+    Attributes
+    ----------
+    S : ndarray, shape (nc, nc)
+        A with all other free dofs eliminated, dimensionless.
+
+    Raises
+    ------
+    SolverError
+        If the matrix is not positive definite with the contact dofs held.
+    """
+
+    def __init__(self, problem):
+        from scipy.sparse import diags_array
+        from scipy.sparse.linalg import splu
+
+        self.size, self.contact = problem.b.size, problem.contact
+        self.count = problem.contact.size
+        is_contact = np.zeros(self.size, dtype=bool)
+        is_contact[problem.contact] = True
+        interior = problem.free[~is_contact[problem.free]]
+        nodes = find_element(problem.element).nodes(problem.mesh, interior)
+        order = dissection_order(problem.A[interior][:, interior], nodes)
+        self.order = np.concatenate([interior[order], problem.contact])
+        A = problem.A[self.order][:, self.order].tocsc()
+        shift = np.zeros(A.shape[0])
+        shift[A.shape[0] - self.count :] = _springs(problem)
+        count(factorisations=1)
+        try:
+            self.factors = splu(
+                (A + diags_array(shift)).tocsc(),
+                permc_spec="NATURAL",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise SolverError(why_singular(problem)) from error
+        pivots = self.factors.U.diagonal()
+        if np.any(self.factors.perm_r != np.arange(A.shape[0])) or np.any(pivots <= 0.0):
+            raise SolverError(why_singular(problem))
+        if np.any(pivots <= _SINGULAR * (A.diagonal() + shift)) and loose_part(problem) is not None:
+            raise SolverError(why_singular(problem))
+        self.S_sprung = self._trailing_block()
+        self.S = self.S_sprung - np.diag(shift[A.shape[0] - self.count :])
+
+    def _trailing_block(self):
+        if not self.count:
+            return np.zeros((0, 0))
+        L, U = self.factors.L[-self.count :], self.factors.U[-self.count :]
+        S = L[:, -self.count :].toarray() @ U[:, -self.count :].toarray()
+        return 0.5 * (S + S.T)
+
+    def reduce(self, load):
+        """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,)."""
+        rhs = load[self.order]
+        split = rhs.size - self.count
+        rhs[split:] = 0.0
+        return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
+
+    def extend(self, load, w, reduced=None):
+        """The free dofs in equilibrium with `load` when the contact dofs equal `w`; zero on the fixed ones.
+
+        `reduced` is ``reduce(load)`` where it is known.
+        """
+        reduced = self.reduce(load) if reduced is None else reduced
+        rhs = load[self.order]
+        split = rhs.size - self.count
+        rhs[split:] = self.S_sprung @ w + (load[self.contact] - reduced)
+        found = self.factors.solve(rhs)
+        missed = w - found[split:]
+        if _largest(missed) > _MISSED * _largest(w):
+            # An ill-conditioned S misses w in its last digits, which a stiff neighbour would feel.
+            rhs[:split], rhs[split:] = 0.0, self.S_sprung @ missed
+            found += self.factors.solve(rhs)
+        u = np.zeros(self.size)
+        u[self.order] = found
+        u[self.contact] = w
+        return u
+
+
+def _springs(problem):
+    """About the size of S on each contact dof: the coefficient there, a power of two; shape (nc,)."""
+    if problem.coefficient is None:
+        return np.ones(problem.contact.size)
+    largest = np.zeros(problem.b.size)
+    dofs = find_element(problem.element).triangle_dofs(problem.mesh)
+    np.maximum.at(largest, dofs, np.broadcast_to(problem.coefficient, dofs.shape))
+    return 2.0 ** np.round(np.log2(largest[problem.contact]))
+
+
+def why_singular(problem):
+    """Say why factors show a matrix that is not positive: a loose part, or what costs all digits."""
+    at = loose_part(problem)
+    if at is None:
+        return f"domain: no digit of the solution survives rounding: {causes(problem)}"
+    return (
+        f"singular stiffness matrix: a part of the body is loose, that with ({at[0]:.6g}, {at[1]:.6g}); "
+        "join it to a dirichlet or contact part of the boundary"
+    )
+
+
+def loose_part(problem):
+    """A point of a part of the body that neither a Dirichlet nor a contact part holds, (2,), or None."""
+    from scipy.sparse.csgraph import connected_components
+
+    count, part = connected_components(problem.A, directed=False)
+    held = np.zeros(count, dtype=bool)
+    held[part[problem.fixed]] = held[part[problem.contact]] = True
+    if held.all():
+        return None
+    return find_element(problem.element).nodes(problem.mesh, np.flatnonzero(~held[part])[:1])[:, 0]
+
+
+def _largest(values):
+    return float(np.max(np.abs(values), initial=0.0))
+
+
+def dissection_order(A, nodes):
+    """Order the rows of a symmetric matrix by nested dissection of their coordinates (George 1973).
+
+    The coordinate ranks' binary digits bisect the set again and again, along x and y in turn; an entry that
+    joins two halves makes its row in the first half part of their separator, ordered after both.
+
+    Parameters
+    ----------
+    A : sparse array, shape (m, m)
+    nodes : ndarray, shape (2, m)
+
+    Returns
+    -------
+    ndarray of int, shape (m,)
+    """
+    count = A.shape[0]
+    if count <= _LEAF:
+        return np.arange(count)
+    depth = int(np.ceil(np.log2(count / _LEAF)))
+    digits = _bisection_digits(nodes, depth)
+    pattern = A.tocoo()
+    first_split = np.full(count, depth)
+    differ = digits[:, pattern.row] != digits[:, pattern.col]
+    apart = differ.any(axis=0)
+    level = differ[:, apart].argmax(axis=0)
+    row = pattern.row[apart]
+    in_first = digits[level, row] == 0
+    np.minimum.at(first_split, row[in_first], level[in_first])
+    key = np.zeros(count, dtype=np.int64)
+    for k in range(depth):
+        key = 3 * key + np.where(first_split <= k, 2, digits[k])
+    return np.argsort(key, kind="stable")
+
+
+def _bisection_digits(nodes, depth):
+    ranks = [np.unique(values, return_inverse=True)[1].astype(np.int64) for values in nodes]
+    scaled = [(rank << 32) // (rank.max(initial=0) + 1) for rank in ranks]
+    return np.array([(scaled[k % 2] >> (31 - k // 2)) & 1 for k in range(depth)], dtype=np.int8)

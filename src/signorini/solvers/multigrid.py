@@ -32,7 +32,7 @@ _STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge;
 _PATIENCE = 60  # steps without half the error before giving up
 _STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
 _STALLED = 25  # steps without half the error after which a new residual may help
-_UNSURE = 0.5  # of the next correction: what may be left after it
+_UNSURE = 1.0  # of the next correction: what may be left after it
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
 _RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
 
@@ -323,7 +323,7 @@ class _Descent:
             r -= np.multiply(Ap, step, out=Ap)
 
     def _wrong(self, z):
-        """Signs that are wrong beyond rounding; and those that the next correction, give or take half, leaves so."""
+        """Signs that are wrong beyond rounding; and those that the next correction, even twice, leaves so."""
         search, c = self.search, self.search.obstacle.contact
         gap, force = self.gap + self.d[c], -self.r[c]
         slack = _UNSURE * search.rule.slack

@@ -1,0 +1,149 @@
+"""The search for the solution on one level: u and its contact set as they stand, and the errors of both."""
+
+import logging
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.solvers.contact import Exchange
+from signorini.solvers.count import count
+from signorini.solvers.descent import Descent, solved
+from signorini.solvers.found import SAFETY, Errors, bound_of, proved
+from signorini.solvers.hierarchy import preconditioner
+from signorini.solvers.residual import residual_and_fluxes, rounding_of
+from signorini.solvers.solution import largest
+
+_MAX_STEPS = 300
+_STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
+_ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
+_RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
+
+_log = logging.getLogger(__name__)
+
+
+class Search:
+    """The search for a level's solution: u and contact set as they stand, and what the signs are held against."""
+
+    def __init__(self, levels, obstacle, u, active):
+        self.levels, self.obstacle, self.u, self.active = levels, obstacle, u, active
+        self.rule, self.steps, self.least = Exchange(), 0, 1.0
+        self.A, c = levels[0].A, obstacle.contact
+        self.rows = self.A[c]
+        self.sizes = abs(self.rows)
+        u[obstacle.fixed] = obstacle.fixed_values
+
+    def found(self, errors):
+        """The answer, with its errors."""
+        unsure = self.active & (self.force <= errors.forces)
+        released = self._released(unsure) if unsure.any() else 0.0
+        return proved(self.u, self.active, self.steps, self.gap, self.force, errors, released)
+
+    def _released(self, dofs):
+        """By how much rounding moves u at most with some contact dofs let go; zero where nothing else holds it."""
+        held = self.obstacle.held(self.active & ~dofs)
+        if not held.any():
+            return 0.0
+        rounding = rounding_of(self.obstacle.b, self.fluxes)
+        sample = np.copysign(rounding, np.random.default_rng(0).random(held.size) - 0.5)
+        cycle = preconditioner(self.levels, held)
+        return largest(solved(self.levels[0], cycle, np.where(held, 0.0, sample), _ESTIMATE))
+
+    def run(self, tolerance):
+        """Improve u and contact set until the error is `tolerance` of what u varies, or round-off; no sign is wrong."""
+        while True:
+            wrong = self._settle(tolerance)
+            if not wrong.any():
+                return
+            self.exchange(wrong)
+
+    def exchange(self, wrong):
+        """Let dofs of a wrong sign change sides."""
+        if self.steps >= _MAX_STEPS:
+            raise SolverError(
+                f"multigrid: no contact set in {_MAX_STEPS} steps, {self.rule.fewest} signs wrong at best"
+            )
+        depth = np.where(self.active, self.force / self.levels[0].diagonal[self.obstacle.contact], self.gap)
+        self.active[self.rule.choose(self.active, wrong, depth)] ^= True
+
+    def _settle(self, tolerance):
+        """Iterate with the contact set held, until converged or until signs are wrong beyond the error; which ones."""
+        count(steps=1)
+        self.steps += 1
+        u, active, obstacle = self.u, self.active, self.obstacle
+        if not (obstacle.fixed.size or active.any()):
+            active[np.argmin(obstacle.b[obstacle.contact])] = True
+        u[obstacle.contact[active]] = obstacle.lower[active]
+        self.held = obstacle.held(active)
+        self.cycle = preconditioner(self.levels, self.held)
+        before = np.inf
+        while True:
+            descent = self._descent(tolerance)
+            wrong = descent.run()
+            self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[obstacle.contact]  # before u rounds it off
+            u += descent.d
+            share = descent.error / (np.ptp(u) or 1.0)
+            _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
+            self.force = np.where(active, -descent.r[obstacle.contact], 0.0)
+            stays = descent.error > 0.5 * before
+            if wrong.any() or descent.converged or (stays and descent.error <= _STAYS * np.ptp(u)):
+                self.left, self.left_force, self.fluxes = descent.error, descent.force_error, descent.fluxes
+                return wrong
+            if stays:
+                raise SolverError(
+                    f"multigrid: the estimated error stays at {share:.1e} of what u varies; "
+                    "set solver.method to direct, or to auto"
+                )
+            before = descent.error
+
+    def _descent(self, tolerance):
+        obstacle = self.obstacle
+        if tolerance:
+            r, fluxes = obstacle.b - self.A @ self.u, np.zeros(self.u.size)
+            count(products=1)
+        else:
+            r, fluxes = residual_and_fluxes(self.A, obstacle.b, self.u)
+        return Descent(self, r, fluxes, tolerance)
+
+    def errors(self, inexact):
+        """Estimated errors.
+
+        As on the direct route, rounding of every row is a load, pushing one way or with random signs.
+        """
+        c, b = self.obstacle.contact, self.obstacle.b
+        rounding = rounding_of(b, self.fluxes, inexact)
+        loads = rounding, np.copysign(rounding, np.random.default_rng(0).random(b.size) - 0.5)
+        if self.levels[0].robust or self.levels[0].P is None:
+            pushed, pressed, moved, forced = self._responses(*loads)
+        else:
+            pushed, pressed, moved, forced = self._coarse_responses(*loads)
+        local = float(np.max(rounding / self.levels[0].diagonal, where=~self.held, initial=0.0))
+        gaps = pushed + self.left
+        acting = np.max((self.fluxes + np.abs(b))[c], initial=0.0)
+        error = SAFETY * (moved + local) + self.left
+        stiffness = self.levels[0].diagonal[c]
+        together = np.full(c.shape, SAFETY * np.sqrt(rounding @ rounding))
+        force = SAFETY * forced + self.left_force
+        forces = np.where(self.active, pressed, 0.0) + self.left_force
+        return Errors(error, force, gaps, forces, together, stiffness, acting)
+
+    def _responses(self, load, sample):
+        """The gaps and forces that a load makes, each (nc,); the greatest move and force that another one makes."""
+        c, found = self.obstacle.contact, []
+        for rounding in (load, sample):
+            x = solved(self.levels[0], self.cycle, np.where(self.held, 0.0, rounding), _RESPONSE)
+            found += [x, np.where(self.active, self.rows @ x - rounding[c], 0.0)]
+        pushed, pressed, moved, forced = found
+        return bound_of(pushed[c], moved[None, c]), bound_of(pressed, forced[None]), largest(moved), largest(forced)
+
+    def _coarse_responses(self, load, sample):
+        """The same, worked out on the next coarser level and smoothed: enough on cells that are not stretched."""
+        c, level = self.obstacle.contact, self.levels[0]
+        held = level.coarse_mask(self.held)
+        cycle = preconditioner(self.levels[1:], held)
+        coarse = solved(self.levels[1], cycle, np.where(held, 0.0, level.R @ load), _ESTIMATE)
+        pushed = np.where(self.held, 0.0, level.P @ coarse)
+        self.cycle.sweep(0, pushed, load, -1)
+        pressed = self.sizes @ np.abs(pushed) + load[c]
+        moved = largest(cycle(np.where(held, 0.0, level.R @ sample))) / self.least
+        share = min(moved / (largest(pushed) or 1.0), 1.0)
+        return np.abs(pushed[c]), pressed, moved, share * float(np.max(pressed, where=self.active, initial=0.0))

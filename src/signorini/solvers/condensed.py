@@ -76,7 +76,7 @@ class Condensed:
     def reduce(self, load):
         """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,)."""
         rhs = load[self.order]
-        split = rhs.size - self.count
+        split = len(rhs) - self.count
         rhs[split:] = 0.0
         return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
 
@@ -87,7 +87,7 @@ class Condensed:
         """
         reduced = self.reduce(load) if reduced is None else reduced
         rhs = load[self.order]
-        split = rhs.size - self.count
+        split = len(rhs) - self.count
         rhs[split:] = self.S_sprung @ w + (load[self.contact] - reduced)
         found = self.factors.solve(rhs)
         missed = w - found[split:]
@@ -95,7 +95,7 @@ class Condensed:
             # An ill-conditioned S misses w in its last digits, which a stiff neighbour would feel.
             rhs[:split], rhs[split:] = 0.0, self.S_sprung @ missed
             found += self.factors.solve(rhs)
-        u = np.zeros(self.size)
+        u = np.zeros((self.size, *load.shape[1:]))
         u[self.order] = found
         u[self.contact] = w
         return u

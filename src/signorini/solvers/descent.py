@@ -26,12 +26,13 @@ class Descent:
         Whether they are small enough.
     """
 
-    def __init__(self, search, r, fluxes, tolerance):
-        self.search, self.r, self.fluxes, self.tolerance = search, r, fluxes, tolerance
+    def __init__(self, search, r, tolerance):
+        self.search, self.r, self.tolerance = search, r, tolerance
         self.d = np.zeros_like(r)
         self.gap = search.u[search.obstacle.contact] - search.obstacle.lower
         self.size, self.converged = float(np.ptp(search.u)), False
         self.steps, self.bends = [], []
+        self.acting = search.acting()
 
     def run(self):
         """Iterate until the error is small enough, stalls, or signs are wrong beyond it; which ones, shape (nc,)."""
@@ -83,7 +84,6 @@ class Descent:
         self.force_error = float(np.max(force_error, where=search.active, initial=0.0))
         force_error *= slack
         low = ROUNDING * EPS * self.size
-        self.acting = np.max(self.fluxes[c] + np.abs(search.obstacle.b[c]), initial=0.0)
         rounding = ROUNDING * EPS * self.acting
         wrong = np.where(search.active, force < -rounding, gap < -low)
         pulled, sunk = force + search.rows @ z < -rounding - force_error, gap + z[c] < -low - gap_error

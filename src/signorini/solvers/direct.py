@@ -16,7 +16,7 @@ from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.found import NO_DIGIT, Errors, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
-from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of
+from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
 
 _MAX_STEPS = 100
 _STRICT = 10  # steps in which signs count that may be rounding
@@ -72,6 +72,7 @@ class _Body:
         if np.any(self.condensed.S.diagonal() <= 0.0):
             raise SolverError(why_singular(problem))
         self.operator = DenseContact(self.condensed.S) if problem.contact.size else None
+        self.sums = row_sums(problem.A)
         stretched = problem.mesh.stretch > STRETCHED
         self.inexact = _inexact(problem) if stretched and not isinstance(problem.mesh, Grid) else None
         self.even = not (stretched or jumps(problem.coefficient))
@@ -81,7 +82,7 @@ class _Body:
         if self.operator is None:
             return np.zeros(0, dtype=bool), 0
         problem = self.problem
-        q = self.condensed.reduce(residual(problem.A, problem.b, u))
+        q = self.condensed.reduce(residual(problem.A, problem.b, u, self.sums))
         result = solve_contact(self.operator, q, guess=guess, singular=problem.fixed.size == 0)
         return result.active, result.iterations
 
@@ -97,7 +98,7 @@ class _Body:
         """
         problem = self.problem
         u[problem.contact[active]] = problem.lower[active]
-        u = u + self.displacement(residual(problem.A, problem.b, u), active)[0]
+        u = u + self.displacement(residual(problem.A, problem.b, u, self.sums), active)[0]
         for _ in range(_CORRECTIONS):
             correction, force, left = self._correction(u, active)
             gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
@@ -111,7 +112,7 @@ class _Body:
 
         The residual of u is taken once. All that follows is as small as the correction, and so is its rounding.
         """
-        r, size = residual(self.problem.A, self.problem.b, u), float(np.ptp(u))
+        r, size = residual(self.problem.A, self.problem.b, u, self.sums), float(np.ptp(u))
         z, force = self.displacement(r, active)
         if self.even and _largest(z) <= _CERTAIN * size:
             return z, force, (_largest(z) ** 2 / size if size else 0.0, 0.0)
@@ -127,7 +128,7 @@ class _Body:
             rz, before = float(r @ z), rz
             p *= rz / before
             p += z
-            Ap = -residual(self.problem.A, nothing, p)
+            Ap = -residual(self.problem.A, nothing, p, self.sums)
             length = rz / float(p @ Ap)
             found += length * p
             r -= length * Ap
@@ -140,14 +141,19 @@ class _Body:
         rate = _STUCK if step > max(_STALLED * last, _CERTAIN * size) else 2.0 * min(step / last, 1.0)
         return found, force, (rate * step, rate * change)
 
-    def displacement(self, load, active):
-        """What a load does with the contact set held: the change of u, and the forces it leaves on contact dofs."""
-        reduced = self.condensed.reduce(load)
-        w = np.zeros(active.size)
+    def displacement(self, load, active, reduced=None):
+        """What a load does with the contact set held: the change of u, and the forces it leaves on contact dofs.
+
+        `load` is of shape (ndof,), or (ndof, k) for k of them at once; so are what they do, and the forces (nc, ...).
+        `reduced` is what it is condensed to the contact dofs, where that is known.
+        """
+        reduced = self.condensed.reduce(load) if reduced is None else reduced
+        w = np.zeros_like(reduced)
         if not active.all():
             w[~active] = self.operator.solve_free(~active, reduced[~active])
         force = self.operator.S @ w - reduced if active.size else w
-        return self.condensed.extend(load, w, reduced), np.where(active, force, 0.0)
+        force[~active] = 0.0
+        return self.condensed.extend(load, w, reduced), force
 
     def errors(self, u, active, left):
         """Estimated errors of a refined solution.
@@ -156,23 +162,22 @@ class _Body:
         same with random signs shows what rounding does where entries of inv(A) differ in sign.
         """
         problem = self.problem
-        _, fluxes = residual_and_fluxes(problem.A, problem.b, u)
+        _, fluxes = residual_and_fluxes(problem.A, problem.b, u, sums=self.sums)
         inexact = 0.0 if self.inexact is None else residual_and_fluxes(self.inexact, 0.0 * problem.b, u)[1]
         rounding = rounding_of(problem.b, fluxes, inexact)
         rounding[problem.fixed] = 0.0
-        pushed, pressed = self.displacement(rounding, active)
-        rng, largest_u = np.random.default_rng(0), 0.0
-        gaps, forces = np.zeros((2, _SAMPLES, active.size))
-        for k in range(_SAMPLES):
-            moved, forces[k] = self.displacement(np.copysign(rounding, rng.random(u.size) - 0.5), active)
-            gaps[k] = moved[problem.contact]
-            largest_u = max(largest_u, _largest(moved))
-        largest_force = _largest(forces)
-        gaps, forces = bound_of(pushed[problem.contact], gaps), bound_of(pressed, forces)
+        signs = np.random.default_rng(0).random((u.size, 1 + _SAMPLES)) - 0.5
+        signs[:, 0] = 1.0
+        samples = np.copysign(rounding[:, None], signs)
+        reduced = self.condensed.reduce(samples)
+        moved, pressed = self.displacement(samples, active, reduced)
+        largest_u, largest_force = _largest(moved[:, 1:]), _largest(pressed[:, 1:])
+        on_contact = moved[problem.contact].T
+        gaps, forces = (bound_of(found[0], found[1:]) for found in (on_contact, pressed.T))
         acting = np.max((fluxes + np.abs(problem.b))[problem.contact], initial=0.0)
         stiffness = self.condensed.S.diagonal()
         bounds = gaps + left[0], forces + left[1]
-        loads = np.abs(self.condensed.reduce(rounding))
+        loads = np.abs(reduced[:, 0])
         return Errors(largest_u + left[0], largest_force + left[1], *bounds, loads, stiffness, acting)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from signorini.assembly import assemble_stiffness
 from signorini.elements import ELEMENTS
 from signorini.exceptions import MeshError
-from signorini.solvers.residual import residual
+from signorini.solvers.residual import residual, row_sums
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
 STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
@@ -47,7 +47,12 @@ class Level:
 
     def product(self, x):
         """A x; from differences of x where entries of A differ by many powers of ten."""
-        return -residual(self.A, np.zeros_like(x), x) if self._exact else self.A @ x
+        return -residual(self.A, np.zeros_like(x), x, self.sums) if self._exact else self.A @ x
+
+    @cached_property
+    def sums(self):
+        """``row_sums`` of A, see `residual`."""
+        return row_sums(self.A)
 
     @cached_property
     def R(self):

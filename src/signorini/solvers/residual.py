@@ -16,24 +16,12 @@ _ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for 
 _FLUX = 4.0  # roundings of a flux: the coupling, the difference, their product, and the sum of the row
 
 
-def residual(A, b, u):
-    """b - A u.
-
-    Parameters
-    ----------
-    A : scipy.sparse.csr_array, shape (m, n)
-        All rows of a stiffness matrix; or some, with `own` below.
-    b, u : ndarray, shape (n,)
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Unit of b.
-    """
-    return residual_and_fluxes(A, b, u)[0]
+def residual(A, b, u, sums=None):
+    """b - A u; arguments and unit as in `residual_and_fluxes`."""
+    return _by_differences(A, b, u, None, sums, None)
 
 
-def residual_and_fluxes(A, b, u, rows=None):
+def residual_and_fluxes(A, b, u, rows=None, sums=None):
     """b - A u, and for each row the sum of its fluxes' sizes, sum_j |a_ij (u_j - u_i)|.
 
     Parameters
@@ -44,25 +32,53 @@ def residual_and_fluxes(A, b, u, rows=None):
     u : ndarray, shape (n,)
     rows : ndarray of int, shape (m,), optional
         The unknowns that the rows belong to; all of them, in order, where not given.
+    sums : ndarray, shape (m,), optional
+        ``row_sums(A)``, where it is known.
 
     Returns
     -------
     residual, fluxes : ndarray, shape (m,)
         Unit of b.
     """
-    count(products=rows is None)
-    found, fluxes = b.copy(), np.zeros(b.size)
-    for part in blocks(b.size):
-        own = u[part] if rows is None else u[rows[part]]
+    fluxes = np.zeros(b.size)
+    return _by_differences(A, b, u, rows, sums, fluxes), fluxes
+
+
+def row_sums(A):
+    """The sum of each row of a matrix, zero where it is no more than round-off; empty where all are. Shape (m,)."""
+    sums = np.zeros(A.shape[0])
+    for part, entries, starts in _parts(A):
+        data = A.data[entries]
+        sums[part], sizes = np.add.reduceat(data, starts), np.add.reduceat(np.abs(data), starts)
+        sums[part][np.abs(sums[part]) <= _ROUNDING * sizes] = 0.0
+    return sums if sums.any() else np.zeros(0)
+
+
+def _parts(A):
+    """Slices of rows, of their entries, and where among these each row starts."""
+    for part in blocks(A.shape[0]):
         first = A.indptr[part.start : part.stop + 1]
-        entries = slice(first[0], first[-1])
-        data, starts, lengths = A.data[entries], first[:-1] - first[0], np.diff(first)
-        sums, sizes = np.add.reduceat(data, starts), np.add.reduceat(np.abs(data), starts)
-        sums[np.abs(sums) <= _ROUNDING * sizes] = 0.0
-        terms = data * (u[A.indices[entries]] - np.repeat(own, lengths))
-        found[part] -= sums * own + np.add.reduceat(terms, starts)
-        fluxes[part] = np.add.reduceat(np.abs(terms, out=terms), starts) + np.abs(sums * own)
-    return found, fluxes
+        yield part, slice(first[0], first[-1]), first[:-1] - first[0]
+
+
+def _by_differences(A, b, u, rows, sums, fluxes):
+    """b - A u; where asked for, the sums of the sizes of its terms go to `fluxes`."""
+    count(products=rows is None)
+    sums = row_sums(A) if sums is None else sums
+    found = b.copy()
+    for part, entries, starts in _parts(A):
+        own = u[part] if rows is None else u[rows[part]]
+        terms = u[A.indices[entries]]
+        terms -= np.repeat(own, np.diff(A.indptr[part.start : part.stop + 1]))
+        terms *= A.data[entries]
+        found[part] -= np.add.reduceat(terms, starts)
+        if sums.size:
+            found[part] -= sums[part] * own
+        if fluxes is not None:
+            fluxes[part] = np.add.reduceat(np.abs(terms, out=terms), starts)
+            if sums.size:
+                fluxes[part] += np.abs(sums[part] * own)
+    return found
 
 
 def rounding_of(b, fluxes, inexact=0.0):

@@ -10,14 +10,16 @@ from signorini.solvers.count import count
 from signorini.solvers.descent import Descent, solved
 from signorini.solvers.found import SAFETY, Errors, bound_of, proved
 from signorini.solvers.hierarchy import preconditioner
-from signorini.solvers.residual import residual_and_fluxes, rounding_of
+from signorini.solvers.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.solution import largest
 
 _MAX_STEPS = 300
+_ROUGH = 1e-12  # error, of what u varies, to which plain products do
 _STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
 _RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
 
+_NONE = np.zeros(0)
 _log = logging.getLogger(__name__)
 
 
@@ -31,6 +33,12 @@ class Search:
         self.rows = self.A[c]
         self.sizes = abs(self.rows)
         u[obstacle.fixed] = obstacle.fixed_values
+
+    def acting(self):
+        """The largest force that acts on a contact dof: the sum of the sizes of its load and its fluxes."""
+        load = self.obstacle.b[self.obstacle.contact]
+        fluxes = residual_and_fluxes(self.rows, load, self.u, self.obstacle.contact, _NONE)[1]
+        return np.max(fluxes + np.abs(load), initial=0.0)
 
     def found(self, errors):
         """The answer, with its errors."""
@@ -77,7 +85,7 @@ class Search:
         self.cycle = preconditioner(self.levels, self.held)
         before = np.inf
         while True:
-            descent = self._descent(tolerance)
+            descent = self._descent(tolerance, exact=before < np.inf)
             wrong = descent.run()
             self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[obstacle.contact]  # before u rounds it off
             u += descent.d
@@ -85,24 +93,28 @@ class Search:
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
             self.force = np.where(active, -descent.r[obstacle.contact], 0.0)
             stays = descent.error > 0.5 * before
-            if wrong.any() or descent.converged or (stays and descent.error <= _STAYS * np.ptp(u)):
-                self.left, self.left_force, self.fluxes = descent.error, descent.force_error, descent.fluxes
-                return wrong
+            if wrong.any() or (descent.converged and descent.tolerance == tolerance):
+                break
+            if stays and descent.error <= _STAYS * np.ptp(u):
+                break
             if stays:
                 raise SolverError(
                     f"multigrid: the estimated error stays at {share:.1e} of what u varies; "
                     "set solver.method to direct, or to auto"
                 )
             before = descent.error
+        self.left, self.left_force = descent.error, descent.force_error
+        return wrong
 
-    def _descent(self, tolerance):
-        obstacle = self.obstacle
-        if tolerance:
-            r, fluxes = obstacle.b - self.A @ self.u, np.zeros(self.u.size)
+    def _descent(self, tolerance, exact):
+        """The next one; its residual is taken by differences where plain products would no longer do."""
+        b, level = self.obstacle.b, self.levels[0]
+        if tolerance or not (exact or level.robust):
             count(products=1)
-        else:
-            r, fluxes = residual_and_fluxes(self.A, obstacle.b, self.u)
-        return Descent(self, r, fluxes, tolerance)
+            rough = max(_ROUGH, 8.0 * EPS * np.sqrt(self.u.size))  # what rounding of the products leaves of u
+            return Descent(self, b - self.A @ self.u, tolerance or rough)
+        r, self.fluxes = residual_and_fluxes(self.A, b, self.u, sums=level.sums)
+        return Descent(self, r, 0.0)
 
     def errors(self, inexact):
         """Estimated errors.
@@ -118,13 +130,12 @@ class Search:
             pushed, pressed, moved, forced = self._coarse_responses(*loads)
         local = float(np.max(rounding / self.levels[0].diagonal, where=~self.held, initial=0.0))
         gaps = pushed + self.left
-        acting = np.max((self.fluxes + np.abs(b))[c], initial=0.0)
         error = SAFETY * (moved + local) + self.left
         stiffness = self.levels[0].diagonal[c]
         together = np.full(c.shape, SAFETY * np.sqrt(rounding @ rounding))
         force = SAFETY * forced + self.left_force
         forces = np.where(self.active, pressed, 0.0) + self.left_force
-        return Errors(error, force, gaps, forces, together, stiffness, acting)
+        return Errors(error, force, gaps, forces, together, stiffness, self.acting())
 
     def _responses(self, load, sample):
         """The gaps and forces that a load makes, each (nc,); the greatest move and force that another one makes."""

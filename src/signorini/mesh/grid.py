@@ -298,6 +298,8 @@ class Grid:
                 values[k, kind] = self.window(rows, corner)
         return values.reshape(3, -1)
 
+    in_one_part = True  # all triangles hang together by facets
+
     def edge_vectors(self, cells):
         """The edges 01, 12 and 20 of a slice of the triangles as vectors, shape (3, 2, length), unit of length."""
         corners = np.array(self.corners).transpose(1, 2, 0) * np.array(self.spacing)[:, None]

@@ -94,6 +94,20 @@ class Triangulation:
         """Give back the memory of `facets` and `t2f`, 24 bytes a triangle; they are made again when asked for."""
         self.__dict__.pop("_facets", None)
 
+    @cached_property
+    def in_one_part(self):
+        """Whether all triangles hang together by facets; seen on the root mesh."""
+        if self.parent is not None:
+            return self.parent.in_one_part
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        facets, count = self.t2f.ravel(), self.number_of_triangles
+        owners = np.tile(np.arange(count), 3)
+        ones = np.ones(facets.size, dtype=np.int8)
+        incidence = coo_array((ones, (owners, facets)), shape=(count, self.number_of_facets)).tocsr()
+        return connected_components(incidence @ incidence.T, directed=False, return_labels=False) == 1
+
     def triangles_at(self, label):
         """The triangles with a facet that carries `label`, each once, as `Triangles`."""
         carries = np.zeros(self.number_of_facets, dtype=bool)

@@ -51,6 +51,8 @@ class Descent:
             if self._ends(level) or waited > patience or (not self.tolerance and error <= DIGITS * first):
                 return certain
             before, rz = rz, r @ z
+            if not rz > 0.0:
+                return certain
             bend = 0.0 if p is None else rz / before
             p = z if p is None else np.add(np.multiply(p, bend, out=p), z, out=p)
             Ap = level.product(p)

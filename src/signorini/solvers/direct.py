@@ -52,7 +52,9 @@ def solve_direct(problem, guess=None):
         if not wrong.any():
             if not errors.u <= NO_DIGIT * np.ptp(u):
                 raise SolverError(why_singular(problem))
-            found, near = proved(u, active, iterations, gap, force, errors), to_close(u, active, gap, errors)
+            released = body.released(active, force <= errors.forces)
+            found = proved(u, active, iterations, gap, force, errors, released)
+            near = to_close(u, active, gap, errors)
             if first is not None or not near.any():
                 return better(first, found)
             first, u, active = found, u.copy(), active | near
@@ -155,6 +157,13 @@ class _Body:
         force[~active] = 0.0
         return self.condensed.extend(load, w, reduced), force
 
+    def released(self, active, unsure):
+        """By how much rounding moves u at most with unsure dofs of a contact set let go; 0 where nothing else holds."""
+        held = active & ~unsure
+        if np.array_equal(held, active) or not (self.problem.fixed.size or held.any()):
+            return 0.0
+        return _largest(self.displacement(self.sample, held)[0])
+
     def errors(self, u, active, left):
         """Estimated errors of a refined solution.
 
@@ -169,7 +178,7 @@ class _Body:
         signs = np.random.default_rng(0).random((u.size, 1 + _SAMPLES)) - 0.5
         signs[:, 0] = 1.0
         samples = np.copysign(rounding[:, None], signs)
-        reduced = self.condensed.reduce(samples)
+        reduced, self.sample = self.condensed.reduce(samples), samples[:, -1]
         moved, pressed = self.displacement(samples, active, reduced)
         largest_u, largest_force = _largest(moved[:, 1:]), _largest(pressed[:, 1:])
         on_contact = moved[problem.contact].T

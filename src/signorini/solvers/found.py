@@ -85,6 +85,11 @@ def bound_of(pushed, samples):
     return np.maximum(np.minimum(np.abs(pushed), high), low)
 
 
+def size_of(u):
+    """What errors of u are relative to: its variation, or its size where it is constant."""
+    return (float(np.ptp(u)) or float(np.max(np.abs(u)))) if u.size else 0.0
+
+
 def wrong_signs(active, gap, force, errors, variation=None):
     """Contact dofs whose gap, or force where they bind, is negative beyond its own error; shape (nc,) of bool.
 
@@ -103,7 +108,7 @@ def to_close(u, active, gap, errors):
     Above the obstacle by round-off alone they count as binding, so that no route decides them. Where rounding leaves
     too little of u with the undecided ones apart, it may leave more with them held.
     """
-    variation = float(np.ptp(u))
+    variation = size_of(u)
     apart = ~active & (gap <= errors.gaps)
     if errors.u + _largest(gap, apart) > SOLVED * variation:
         return apart
@@ -130,7 +135,7 @@ def proved(u, active, iterations, gap, force, errors, released=0.0):
     binding, apart = active & undecided, ~active & undecided
     moved = max(released, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
     pressed = _largest(force, binding) + _largest(errors.loads, apart)
-    variation = float(np.ptp(u)) if u.size else 0.0
+    variation = size_of(u)
     accuracy = _share(errors.u + moved, variation)
     largest = _largest(force, active & ~undecided)
     largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting

@@ -12,7 +12,7 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.solvers.contact import Exchange, solve_contact
 from signorini.solvers.count import count
-from signorini.solvers.found import Errors, better, proved, to_close, wrong_signs
+from signorini.solvers.found import Errors, better, proved, size_of, to_close, wrong_signs
 from signorini.solvers.residual import EPS
 from signorini.solvers.rows import Edges, Vertices, strip_of
 from signorini.solvers.solution import largest
@@ -20,6 +20,8 @@ from signorini.solvers.spectral import contact_operator
 from signorini.stencil import apply_stiffness
 
 _MAX_STEPS = 100
+_CORRECTIONS = 5
+_CERTAIN = 1e-12  # a correction of which share of u is one to the last digits
 _SAFETY = 8.0  # of a bound over the last correction
 
 
@@ -61,11 +63,7 @@ def solve_fourier(problem, guess=None):
     u[problem.contact] += problem.lower
     rule, first = Exchange(), None
     for _ in range(_MAX_STEPS):
-        before = line.force
-        correction = _displacement(problem, route, _residual(problem, u), line.hold)
-        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
-        u += correction
-        errors = _errors(problem, u, largest(correction), largest(line.force - before), line.stiffness)
+        gap, errors = _refined(problem, route, line, u)
         wrong = wrong_signs(line.active, gap, line.force, errors)
         near = to_close(u, line.active, gap, errors)
         if wrong.any():
@@ -79,6 +77,21 @@ def solve_fourier(problem, guess=None):
     raise SolverError(f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best")
 
 
+def _refined(problem, route, line, u):
+    """Correct u in place until corrections stop falling, mostly once; the gaps, and the errors of all."""
+    last = np.inf
+    for _ in range(_CORRECTIONS):
+        before = line.force
+        correction = _displacement(problem, route, _residual(problem, u), line.hold)
+        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
+        u += correction
+        size, change = largest(correction), largest(line.force - before)
+        if size <= _CERTAIN * size_of(u) or size > 0.5 * last:
+            break
+        last = size
+    return gap, _errors(problem, u, size, change, line.stiffness)
+
+
 def _residual(problem, u):
     count(products=1)
     rest = apply_stiffness(problem.grid, problem.element, u)
@@ -89,8 +102,7 @@ def _errors(problem, u, correction, change, stiffness):
     """Errors of u and of the forces, by their last changes."""
     _, fluxes, _ = problem.contact_fluxes(u)
     acting = np.max(fluxes + np.abs(problem.b[problem.contact]), initial=0.0)
-    size = max(largest(u), largest(problem.lower))
-    gap, force = _SAFETY * max(correction, EPS * size), _SAFETY * max(change, EPS * acting)
+    gap, force = _SAFETY * max(correction, EPS * largest(u)), _SAFETY * max(change, EPS * acting)
     shape = problem.contact.shape
     gaps, forces = np.full(shape, gap), np.full(shape, force)
     return Errors(correction, max(change, EPS * acting), gaps, forces, forces, stiffness, acting)

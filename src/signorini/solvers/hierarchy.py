@@ -116,11 +116,13 @@ def is_nested(mesh):
 
 def causes(problem):
     """What in a problem costs digits, for a message: cell shapes, the coefficient; and the remedy."""
-    stretched = f"there are cells {problem.mesh.stretch:.2g} times as long as high"
-    if problem.coefficient is None:
-        return f"{stretched}; stretch cells less"
-    range_of = problem.coefficient.max() / problem.coefficient.min()
-    return f"{stretched}, and the coefficient varies by {range_of:.1g}; stretch cells less, or let it vary less"
+    found = []
+    if problem.mesh.stretch > STRETCHED:
+        found.append(f"there are cells {problem.mesh.stretch:.2g} times as long as high; stretch cells less")
+    if jumps(problem.coefficient):
+        contrast = problem.coefficient.max() / problem.coefficient.min()
+        found.append(f"the coefficient varies by {contrast:.1g}; let it vary less")
+    return ", and ".join(found) or "look for data of very different sizes"
 
 
 def _algebraic(A, robust=False):

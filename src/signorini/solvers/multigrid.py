@@ -61,18 +61,12 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
             search = Search(levels[k:], obstacles[k], u, active)
             search.run(0.1 / u.size)
             u, active = _prolong(levels[k - 1], obstacles[k], obstacles[k - 1], search.u, search.active)
-    search = Search(levels, obstacles[0], u, active if guess is None else _same_length(guess, active))
+    search = Search(levels, obstacles[0], u, active if guess is None else guess)
     if tolerance:
         search.run(tolerance)
         nothing = np.zeros(problem.contact.size)
         return search.found(Errors(tolerance * np.ptp(search.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0))
     return _proved(problem, search)
-
-
-def _same_length(guess, active):
-    if np.shape(guess) != active.shape:
-        raise SolverError(f"guess: {np.shape(guess)} is not the shape of the contact dofs, {active.shape}")
-    return np.array(guess, dtype=bool)
 
 
 def _proved(problem, search):

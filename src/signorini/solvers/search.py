@@ -13,7 +13,7 @@ from signorini.solvers.hierarchy import preconditioner
 from signorini.solvers.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.solution import largest
 
-_MAX_STEPS = 300
+_MAX_STEPS, _DESCENTS = 300, 30
 _ROUGH = 1e-12  # error, of what u varies, to which plain products do
 _STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
@@ -84,7 +84,7 @@ class Search:
         self.held = obstacle.held(active)
         self.cycle = preconditioner(self.levels, self.held)
         before = np.inf
-        while True:
+        for _ in range(_DESCENTS):
             descent = self._descent(tolerance, exact=before < np.inf)
             wrong = descent.run()
             self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[obstacle.contact]  # before u rounds it off

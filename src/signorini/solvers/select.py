@@ -8,7 +8,8 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, fits
-from signorini.solvers.found import Found
+from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
+from signorini.solvers.found import NO_DIGIT, Found, size_of
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
@@ -57,27 +58,38 @@ def solve(problem, method="auto", guess=None):
     >>> solution.status, round(float(solution.u[0]), 8)
     ('solved', 0.60808628)
     """
-    _check_data(problem)
-    if not problem.fixed.size:
-        _check_solvable(problem)
+    check_data(problem)
+    guess = checked_guess(problem, guess)
     method, reason = _choose(problem, method)
+    check_solvable(problem)
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
     constant = _constant(scaled)
     shifted = _shifted(scaled, constant)
     if method != "fourier":
-        _check_symmetric(shifted.A)
+        check_symmetric(shifted.A)
     found, method, reason = _find(shifted, method, reason, guess)
-    u, variation = found.u, np.ptp(found.u)
+    if not constant and np.ptp(found.u) <= _NEARLY_CONSTANT * largest(found.u):
+        # Nothing but the solution shows that all of the body stays near a constant, far from its obstacle.
+        constant = float(np.min(found.u))
+        shifted = _shifted(scaled, constant)
+        found, method, reason = _find(shifted, method, reason, found.active)
+    u, variation = found.u, size_of(found.u)
     active, c = found.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
     accuracy = found.accuracy + _stored(u, constant, variation)
+    if not accuracy <= NO_DIGIT:
+        from signorini.solvers.hierarchy import causes
+
+        raise SolverError(f"domain: no digit of the solution survives rounding: {causes(problem)}")
     status = status_of(residual, accuracy, found.multiplier_accuracy)
     if status == "failed":
+        from signorini.solvers.hierarchy import causes
+
         raise SolverError(
-            f"{problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
-            "look for extreme cell shapes or try another solver.method"
+            f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; {causes(problem)}, or try "
+            "another solver.method"
         )
     multiplier = np.where(active, np.maximum(found.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
@@ -111,12 +123,17 @@ def _find(problem, method, reason, guess):
         larger = not fits(problem.mesh.number_of_triangles, DIRECT[problem.element])
         if method != "multigrid" or reason == _ASKED or larger:
             raise
-        return _by_route(problem, "direct", guess), "direct", f"{error}"
+        return _by_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
 
 
 def _by_route(problem, method, guess):
     module, function = METHODS[method]
-    return Found(*getattr(importlib.import_module(module), function)(problem, guess))
+    try:
+        return Found(*getattr(importlib.import_module(module), function)(problem, guess))
+    except (np.linalg.LinAlgError, FloatingPointError) as error:
+        from signorini.solvers.hierarchy import causes
+
+        raise SolverError(f"domain: {method}: {error}; {causes(problem)}") from error
 
 
 def _choose(problem, method):
@@ -140,6 +157,8 @@ def _choose(problem, method):
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
         return "direct", f"{why_not}, and not refined or of stretched cells"
+    if obstacle := _obstruction("multigrid", problem):
+        raise SolverError(f"domain: too large for a factorisation, and {obstacle}; stretch cells less, or use fewer")
     return "multigrid", f"{why_not}, and too large for a factorisation"
 
 
@@ -147,41 +166,6 @@ def _obstruction(method, problem):
     """Why a route does not apply to a problem, or None; the direct one always does."""
     room = importlib.import_module(METHODS[method][0])
     return room.obstruction(problem) if hasattr(room, "obstruction") else None
-
-
-def _check_data(problem):
-    for name in ("b", "lower", "fixed_values"):
-        values = getattr(problem, name)
-        if not np.all(np.isfinite(values)):
-            k = int(np.flatnonzero(~np.isfinite(values))[0])
-            raise SolverError(f"problem.{name}: entry {k} is {values[k]}; all data must be finite")
-
-
-def _check_symmetric(A):
-    """Hold x . A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not finite."""
-    x = np.random.default_rng(0).random(A.shape[0]) - 0.5
-    y = x[::-1].copy()
-    Ax, Ay = A @ x, A @ y
-    if not abs(x @ Ay - y @ Ax) <= 1e-9 * np.sqrt(x @ x) * np.sqrt(Ax @ Ax):
-        raise SolverError("problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form")
-
-
-def _check_solvable(problem):
-    """Without Dirichlet part a constant may be added: the load's sum decides (Fichera's condition)."""
-    total, size = float(problem.b.sum()), float(np.abs(problem.b).sum())
-    rounding = 8.0 * np.finfo(float).eps * size
-    if not problem.contact.size:
-        raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
-    if abs(total) <= rounding:
-        raise SolverError(
-            "nonunique: no dirichlet part and int f + int g = 0, so a constant may be added to u; "
-            "add a dirichlet part to the boundary"
-        )
-    if total > 0.0:
-        raise SolverError(
-            f"unbounded: no dirichlet part and int f + int g = {total:.3e} > 0 lifts u off the obstacle without end; "
-            "add a dirichlet part to the boundary, or a load with negative mean"
-        )
 
 
 def _stored(u, constant, variation):

@@ -302,6 +302,8 @@ def _narrow_order(nodes, first, second):
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
+    if not nodes.size:
+        return nodes
     place = np.full(max(np.max(first), np.max(second)) + 1, -1)
     place[nodes] = np.arange(nodes.size)
     rows, columns = place[first], place[second]

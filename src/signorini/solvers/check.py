@@ -1,0 +1,129 @@
+"""What is looked at before a problem is solved."""
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+
+_CONTRAST = 1e16  # of a coefficient: what double precision can hold side by side
+
+
+def check_data(problem):
+    """Refuse data that are not finite, do not fit each other, or that double precision cannot hold together.
+
+    Raises
+    ------
+    SolverError
+        Naming what is wrong.
+    """
+    for name in ("b", "lower", "fixed_values"):
+        values = getattr(problem, name)
+        if not np.all(np.isfinite(values)):
+            k = int(np.flatnonzero(~np.isfinite(values))[0])
+            raise SolverError(f"problem.{name}: entry {k} is {values[k]}; all data must be finite")
+    for dofs, values in (("contact", "lower"), ("fixed", "fixed_values")):
+        numbers, count = getattr(problem, dofs), getattr(problem, values).size
+        if numbers.size != count:
+            raise SolverError(f"problem.{values}: {count} values for {numbers.size} dofs in problem.{dofs}")
+        if numbers.size and not 0 <= numbers.min() <= numbers.max() < problem.b.size:
+            raise SolverError(f"problem.{dofs}: a dof is not one of the {problem.b.size} that problem.b has")
+    if np.intersect1d(problem.contact, problem.fixed).size:
+        raise SolverError("problem.contact: a dof is in problem.fixed, too; leave it out of one of them")
+    _check_coefficient(problem.coefficient)
+
+
+def _check_coefficient(k):
+    if k is None:
+        return
+    if not (np.all(np.isfinite(k)) and np.all(k > 0.0)):
+        raise SolverError("data.coefficient: not positive and finite everywhere")
+    if k.max() > _CONTRAST * k.min():
+        raise SolverError(
+            f"data.coefficient: from {k.min():.3g} to {k.max():.3g}, which double precision cannot hold side by side; "
+            f"let it vary by less than {_CONTRAST:g}"
+        )
+
+
+def checked_guess(problem, guess):
+    """A guess of the contact set as an array of its own; None where there is none.
+
+    Raises
+    ------
+    SolverError
+        If it is no mask of the contact dofs.
+    """
+    if guess is None:
+        return None
+    guess = np.asarray(guess)
+    if guess.shape != problem.contact.shape or guess.dtype != bool:
+        raise SolverError(
+            f"guess: shape {guess.shape} of {guess.dtype}; give a mask of the contact dofs, shape "
+            f"{problem.contact.shape} of bool"
+        )
+    return guess.copy()
+
+
+def check_symmetric(A):
+    """Hold x . A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not finite."""
+    x = np.random.default_rng(0).random(A.shape[0]) - 0.5
+    y = x[::-1].copy()
+    Ax, Ay = A @ x, A @ y
+    if not abs(x @ Ay - y @ Ax) <= 1e-9 * np.sqrt(x @ x) * np.sqrt(Ax @ Ax):
+        raise SolverError("problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form")
+
+
+def check_solvable(problem):
+    """Hold the load of each part of the body that no Dirichlet part holds: its sum decides (Fichera's condition).
+
+    Raises
+    ------
+    SolverError
+        If a constant may be added to u there, once or without end.
+    """
+    for part in _floating_parts(problem):
+        load = problem.b if part is None else problem.b[part]
+        contact = problem.contact.size if part is None else np.isin(problem.contact, part, kind="sort").sum()
+        _check_load(load, contact, _place(problem, part))
+
+
+def _floating_parts(problem):
+    """The dofs of each part of the body without a fixed one; None for all of a body in one part."""
+    if problem.grid is not None or problem.mesh.in_one_part:
+        return [] if problem.fixed.size else [None]
+    from scipy.sparse.csgraph import connected_components
+
+    count, part = connected_components(problem.A, directed=False)
+    held = np.zeros(count, dtype=bool)
+    held[part[problem.fixed]] = True
+    return [np.flatnonzero(part == k) for k in np.flatnonzero(~held)]
+
+
+def _place(problem, part):
+    """Where a part of the body is, for a message; empty for all of it."""
+    if part is None:
+        return ""
+    from signorini.elements import element as find_element
+
+    x, y = find_element(problem.element).nodes(problem.mesh, part[:1])[:, 0]
+    return f" of the part of the body with ({x:.6g}, {y:.6g})"
+
+
+def _check_load(load, contact, place):
+    total, size = float(load.sum()), float(np.abs(load).sum())
+    rounding = 8.0 * np.finfo(float).eps * size
+    if not contact and place:
+        raise SolverError(
+            f"singular stiffness matrix: a part of the body is loose, the boundary{place} is neither dirichlet nor "
+            "contact anywhere; join it to a dirichlet or contact part of the boundary"
+        )
+    if not contact:
+        raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
+    if abs(total) <= rounding:
+        raise SolverError(
+            f"nonunique: no dirichlet part{place} and int f + int g = 0, so a constant may be added to u; "
+            "add a dirichlet part to the boundary"
+        )
+    if total > 0.0:
+        raise SolverError(
+            f"unbounded: no dirichlet part{place} and int f + int g = {total:.3e} > 0 lifts u off the obstacle without "
+            "end; add a dirichlet part to the boundary, or a load with negative mean"
+        )

@@ -162,7 +162,7 @@ BAD_INPUT = {
     "size infinite": (changed("size: [1, 1]", "size: [1e400, 1]"), "out of range"),
     "size .inf": (changed("size: [1, 1]", "size: [.inf, 1]"), 'domain.size.0: ".inf" is not valid; expected a number'),
     "size nan": (changed("size: [1, 1]", "size: [1, .nan]"), 'domain.size.1: ".nan" is not valid; expected a number'),
-    "size zero": (changed("size: [1, 1]", "size: [1, 0]"), "domain.size: 0 is not valid; it must be finite, positive"),
+    "size zero": (changed("size: [1, 1]", "size: [1, 0]"), "domain.size: 0 is not valid; it must be greater than 0"),
     "size negative": (changed("size: [1, 1]", "size: [-1, 1]"), "domain.size: -1 is not valid"),
     "size of one": (changed("size: [1, 1]", "size: [1]"), "domain.size: [1] is not valid; needs at least 2"),
     "size of three": (

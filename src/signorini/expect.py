@@ -37,8 +37,9 @@ def check_expectations(expected, errors, rates, source):
     wrong = [
         f"{row['element']} {row['norm']} {_NO_SLOPE[trouble_of(row)]}" for row in rates if trouble_of(row) != SOUND
     ]
+    near = f"within {expected['tolerance']:g}"
     wrong += [
-        f"{row['element']} {row['norm']} slope {row['slope']:.3f}, expected {expected['slopes'][row['norm']]:g}"
+        f"{row['element']} {row['norm']} slope {row['slope']:.3f}, expected {expected['slopes'][row['norm']]:g} {near}"
         for row in rates
         if trouble_of(row) == SOUND and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
     ]
@@ -50,6 +51,7 @@ def check_expectations(expected, errors, rates, source):
         if not size < bound
     ]
     if wrong:
-        raise SignoriniError(f"{source}: not as the scene expects: {'; '.join(wrong)}")
+        found = "; ".join(wrong)
+        raise SignoriniError(f"{source}: not as the scene expects: {found}; correct the scene, or its section expect")
     found = [f"{row['element']} {row['norm']} {row['slope']:.2f}" for row in rates]
     return "as expected: " + (", ".join(found) if found else f"largest error {max(sizes)[0]:.1e}")

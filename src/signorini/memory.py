@@ -30,8 +30,8 @@ def check_memory(triangles, bytes_each, what):
     """
     if not fits(triangles, bytes_each):
         raise MeshError(
-            f"levels: {what} {shortage(triangles, bytes_each)}; choose smaller levels, or on a rectangle "
-            "domain.cells: per-side"
+            f"levels: {what} {shortage(triangles, bytes_each)}; choose smaller levels, or for a rectangle "
+            "set domain.cells to per-side"
         )
 
 
@@ -42,8 +42,17 @@ def fits(triangles, bytes_each):
 
 def shortage(triangles, bytes_each):
     """What a number of triangles needs and what there is, in words."""
-    needed, given = triangles * bytes_each / 1e9, _memory() / 1e9
-    return f"has {triangles:.2g} triangles and needs at least {needed:.2g} GB of memory, of {given:.2g} GB here"
+    if triangles * bytes_each <= _memory():
+        return f"has {_plain(triangles)} triangles, more than the {_plain(_MOST)} that can be numbered"
+    needed, given = _plain(triangles * bytes_each / 1e9), _plain(_memory() / 1e9)
+    return f"has {_plain(triangles)} triangles and needs at least {needed} GB of memory, but there are {given} GB here"
+
+
+def _plain(size):
+    """A number to the last digit before the point, a small one to two digits: no reader wants 2.8e+02."""
+    if 1e7 <= size < 1e11:
+        return f"{size / 1e6:.0f} million"
+    return f"{size:.0f}" if 10 <= size < 1e11 else f"{size:.2g}"
 
 
 def _memory():

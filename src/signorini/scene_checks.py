@@ -59,7 +59,7 @@ def _check_rectangle(domain):
     _check_finite("domain.size", domain["size"])
     for side in domain["size"]:
         if side <= 0:
-            raise SceneError(f"domain.size: {shown(side)} is not valid; it must be finite, positive")
+            raise SceneError(f"domain.size: {shown(side)} is not valid; it must be greater than 0")
 
 
 def _check_polygon(domain):
@@ -174,7 +174,7 @@ def _check_power(fine, coarse, complaint):
     ratio, rest = divmod(fine, coarse)
     if rest or ratio & (ratio - 1):
         near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
-        raise SceneError(f"{complaint}; the finer must be {coarse} times a power of two, for instance {near}")
+        raise SceneError(f"{complaint}; the finer one must be {coarse} times a power of two, for instance {near}")
 
 
 def _check_cells(document):

@@ -24,8 +24,10 @@ def main(arguments):
     solution = solve(problem, arguments.method)
     write_solution(arguments.output, problem, solution, arguments.n, domain.mesh_size(arguments.n))
     return (
-        f"{arguments.element} n = {arguments.n}: {problem.free.size} free dofs, {solution.status}, "
-        f"KKT residual {solution.residual:.1e}, {solution.iterations} active-set steps, {solution.method}"
+        f"{arguments.element} n = {arguments.n}: {problem.free.size} free dofs, {solution.status}, KKT residual "
+        f"{solution.residual:.1e}, relative error of u {solution.accuracy:.1e} and of the contact forces "
+        f"{solution.multiplier_accuracy:.1e}, undecided {solution.undecided.sum()}, active-set steps "
+        f"{solution.iterations}; {solution.method}: {solution.reason}"
     )
 
 

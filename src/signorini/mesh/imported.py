@@ -113,14 +113,14 @@ def resolve_mesh_path(path, root, base=None):
         If the path is empty, has unusual characters, leads out of the tree, or is not an existing regular file.
     """
     if not isinstance(path, str) or not _PLAIN.fullmatch(path) or path != path.strip():
-        raise MeshError(f"mesh path {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /")
+        raise MeshError(f"domain.file: {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /")
     root = Path(root).resolve()
     try:
         resolved = (Path(base or root) / path).resolve()
     except (OSError, RuntimeError) as error:
-        raise MeshError(f"mesh path {path!r} cannot be followed ({type(error).__name__}); remove the loop") from None
+        raise MeshError(f"domain.file: {path!r} cannot be followed ({type(error).__name__}); remove the loop") from None
     if not resolved.is_relative_to(root):
-        raise MeshError(f"mesh path {path!r} leads out of the tree of the scene; copy the file into it")
+        raise MeshError(f"domain.file: {path!r} leads out of the tree of {root.name}/; copy the file into it")
     _regular_size(resolved)
     return resolved
 
@@ -130,10 +130,16 @@ def _regular_size(path):
     try:
         status = path.stat()
     except (OSError, ValueError) as error:
-        raise MeshError(f"{path.name}: cannot read the mesh file ({error}); name an existing file") from None
+        cause = _cause(error, path)
+        raise MeshError(f"{path.name}: cannot read the mesh file ({cause}); name an existing file") from None
     if not stat.S_ISREG(status.st_mode):
         raise MeshError(f"{path.name}: not a regular file; name a mesh file")
     return status.st_size
+
+
+def _cause(error, path):
+    """Why a path does not lead to a file, without the system's error number."""
+    return f"{error.strerror}: {path}" if isinstance(error, OSError) else error
 
 
 def _plane(path, points):

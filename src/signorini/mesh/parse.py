@@ -64,7 +64,7 @@ def _reason(error):
 def _remedy(error):
     if "Incompatible cell data" in str(error):
         return "put all cells into physical groups, or none"
-    return "write the file anew"
+    return "export the mesh again, for instance as .msh 4.1"
 
 
 def _refuse_hostile(path, content):

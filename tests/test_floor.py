@@ -41,8 +41,8 @@ def measured(mapping, element, n, method="auto", norms=INTEGRALS):
 
 
 def stored(problem, solution, n):
-    parts = {name: getattr(solution, name) for name in ("u", "multiplier", "active", "accuracy", "residual")}
-    parts["multiplier_accuracy"] = getattr(solution, "multiplier_accuracy", solution.accuracy)
+    names = ("u", "multiplier", "active", "accuracy", "multiplier_accuracy", "residual")
+    parts = {name: getattr(solution, name) for name in names}
     return SimpleNamespace(element=problem.element, n=n, contact=problem.contact, lower=problem.lower, **parts)
 
 

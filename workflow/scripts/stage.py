@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "src"))
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 
-from signorini.exceptions import SignoriniError  # noqa: E402 (needs the path above)
+from signorini.exceptions import SignoriniError, StorageError  # noqa: E402 (needs the path above)
 
 
 def run(main, description):
@@ -34,6 +34,8 @@ def run(main, description):
     arguments, start = parser.parse_args(), time.perf_counter()
     try:
         line = main(arguments)
+    except StorageError as error:  # which names the file to delete
+        sys.exit(f"error: {error}")
     except SignoriniError as error:
         sys.exit(f"error: {arguments.scene_file}: {error}" if arguments.scene_file else f"error: {error}")
     gc.freeze()

@@ -116,7 +116,7 @@ rule macros:
 rule paper:
     input:
         library("paper.py"),
-        "results/paper/check.txt",
+        check="results/paper/check.txt",
         source="paper/main.tex",
         parts=["results/paper/table_5_1.tex", "results/paper/macros.tex"],
         figures=expand("results/paper/{figure}.pdf", figure=FIGURES),
@@ -129,7 +129,7 @@ rule paper:
         appendix=lambda wildcards: [str(path) for path in appendix()],
         digest=lambda wildcards: digest(appendix()),
     shell:
-        "python3 workflow/scripts/paper.py --source {input.source:q} --output {output:q}"
+        "python3 workflow/scripts/paper.py --source {input.source:q} --check {input.check:q} --output {output:q}"
         " {input.parts:q} {input.figures:q} {params.appendix:q} 2>&1 | tee {log:q}"
 
 

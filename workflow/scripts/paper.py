@@ -6,10 +6,10 @@ from signorini.storage import read_sealed
 from signorini.typeset import typeset
 
 
-@options("--source", "--output", ("parts", {"nargs": "+"}))
+@options("--source", "--check", "--output", ("parts", {"nargs": "+"}))
 def main(arguments):
     """main.tex and the generated files that it inputs to a PDF."""
-    for path in arguments.parts:
+    for path in (arguments.check, *arguments.parts):
         read_sealed(path)
     pages = typeset(arguments.source, arguments.parts, arguments.output)
     return f"paper: {pages} pages"

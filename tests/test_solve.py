@@ -199,6 +199,29 @@ def test_nothing_gives_exactly_nothing(mesh_of, element):
     assert solution.status == "solved"
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("value", [1, 0.1, -3e5])
+@pytest.mark.parametrize("obstacle", ["{} - 7", "{} - 1 - 0.001*x", "{} - where(x < 0.5, 0, 1)", "{}"])
+def test_a_constant_that_meets_every_condition_is_the_answer_itself(element, method, value, obstacle):
+    """Not with its own rounding, which would be of no size to be measured by."""
+    problem = discretize_on(grid(8), element, statement(dirichlet=value, obstacle=obstacle.format(value)))
+    solution = solve(problem, method)
+    assert np.all(solution.u == value)
+    assert not solution.multiplier.any()
+    assert (solution.status, solution.residual) == ("solved", 0.0)
+    assert (solution.accuracy, solution.multiplier_accuracy) == (0.0, 0.0)
+    touching = problem.lower == value
+    np.testing.assert_array_equal(solution.active, touching)
+    np.testing.assert_array_equal(solution.undecided, touching)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("n", [4, 32])
+def test_a_load_whose_square_is_no_double_beside_a_constant_is_refused_and_ends(element, method, n):
+    with pytest.raises(SolverError):
+        solve(discretize_on(grid(n), element, statement(dirichlet=0.1, f="-1e-300")), method)
+
+
 @pytest.mark.parametrize(("load", "binds"), [(-5, True), (5, False)])
 def test_full_and_empty_contact_sets_take_few_steps(mesh_of, element, load, binds):
     solution = solve(discretize_on(mesh_of(), element, statement(f=load)))

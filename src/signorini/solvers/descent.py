@@ -57,7 +57,10 @@ class Descent:
             p = z if p is None else np.add(np.multiply(p, bend, out=p), z, out=p)
             Ap = level.product(p)
             count(products=1, cycles=1)
-            step = rz / (p @ Ap)
+            energy = p @ Ap
+            if not energy > 0.0:  # the square of what is missing is no double any more
+                return certain
+            step = rz / energy
             self.steps.append(step)
             self.bends.append(bend)
             self.d += step * p

@@ -124,6 +124,7 @@ class _Body:
         """The same by conjugate gradients, where factors keep few digits; `z` and `force` are what they make of r."""
         found, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, _largest(z), np.inf
+        last = step
         for _ in range(_STEPS):
             if not step:
                 return found, force, (0.0, 0.0)
@@ -131,7 +132,10 @@ class _Body:
             p *= rz / before
             p += z
             Ap = -residual(self.problem.A, nothing, p, self.sums)
-            length = rz / float(p @ Ap)
+            energy = float(p @ Ap)
+            if not energy > 0.0:  # the square of what is missing is no double any more
+                break
+            length = rz / energy
             found += length * p
             r -= length * Ap
             z, forced = self.displacement(r, active)

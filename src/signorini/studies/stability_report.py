@@ -69,7 +69,8 @@ class Report:
 
     def _claims(self):
         rows = [(row["claim"], row["measured"], row["limit"], "yes" if row["met"] else "NO") for row in self.claims()]
-        return Table(("claim", "measured", "limit", "met"), rows, "What is promised, and what was measured.")
+        header = ("claim", "measured", "limit", "met")
+        return Table(header, rows, "What is promised, and what was measured.", sentences=True)
 
     def _solvers(self):
         rows = []

@@ -18,12 +18,15 @@ class Table:
     caption : str
     groups : sequence of (str, int), optional
         Titles above so many columns each, of all columns; an empty title is none.
+    sentences : bool, optional
+        Whether the first column is of sentences, which LaTeX is to break into lines.
     """
 
     header: tuple
     rows: list
     caption: str = ""
     groups: tuple = ()
+    sentences: bool = False
 
 
 def tex(text):
@@ -47,12 +50,12 @@ def _power(found):
 
 def tex_table(table, label, more=""):
     """A floating table; the first column is aligned left, all others right. `more`, in LaTeX, ends the caption."""
-    width = len(table.header)
+    width, first = len(table.header), r"p{0.66\linewidth}" if table.sentences else "l"
     lines = [
         r"\begin{table}[tp]",
         r"\centering\scriptsize\setlength{\tabcolsep}{2.5pt}",
         rf"\caption{{{tex(table.caption)}{more}}}\label{{tab:{label}}}",
-        rf"\begin{{tabular}}{{l{'r' * (width - 1)}}}",
+        rf"\begin{{tabular}}{{{first}{'r' * (width - 1)}}}",
         r"\toprule",
         *_tex_groups(table.groups),
         _tex_row(table.header),

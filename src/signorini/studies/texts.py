@@ -49,12 +49,16 @@ def _power(found):
 
 
 def tex_table(table, label, more=""):
-    """A floating table; the first column is aligned left, all others right. `more`, in LaTeX, ends the caption."""
+    """A floating table, the first column aligned left, all others right; `more`, in LaTeX, ends the caption.
+
+    A table that is wider than the page is scaled down to it.
+    """
     width, first = len(table.header), r"p{0.66\linewidth}" if table.sentences else "l"
     lines = [
         r"\begin{table}[tp]",
         r"\centering\scriptsize\setlength{\tabcolsep}{2.5pt}",
         rf"\caption{{{tex(table.caption)}{more}}}\label{{tab:{label}}}",
+        r"\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{%",
         rf"\begin{{tabular}}{{{first}{'r' * (width - 1)}}}",
         r"\toprule",
         *_tex_groups(table.groups),
@@ -62,7 +66,7 @@ def tex_table(table, label, more=""):
         r"\midrule",
         *(_heading(row[0], width) if len(row) == 1 else _tex_row(row) for row in table.rows),
         r"\bottomrule",
-        r"\end{tabular}",
+        r"\end{tabular}}",
         r"\end{table}",
     ]
     return "\n".join(lines) + "\n"

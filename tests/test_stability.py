@@ -312,11 +312,12 @@ def test_a_status_better_than_the_error_is_wrong():
         rows("ours/direct", wrong_side=2),
         rows("ours/direct", status="inaccurate", error=1e-4, accuracy=1e-3, limit=1e-4),
         rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9, undecided=3, needless=1),
+        rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9),
         refused(limit=1.0),
         refused(limit=1e-4),
     ]
     (row,) = stability_proof.statuses(found)
-    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (9, 5, 4, 2, 1)
+    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (10, 5, 4, 3, 1)
     assert (row["refused"], row["unneeded"]) == (2, 2)
     assert (row["wrong_side"], row["undecided"], row["needless"]) == (2, 3, 1)
     assert row["solved_multiplier_error"] == 2e-10

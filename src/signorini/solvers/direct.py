@@ -24,7 +24,7 @@ _CORRECTIONS, _STEPS = 10, 40
 _SMALL = 1e-6  # a correction of which share of u needs no other
 _CERTAIN = 1e-11  # a correction by good factors of which share of u is one to the last digits
 _STALLED = 0.7  # of the correction before
-_STUCK = 20.0  # what may be left of corrections that stall above round-off, over the last
+_STUCK = 20.0  # what may be left of corrections that stall, over the last
 _SAMPLES = 2  # random signs of the rounding errors whose effect is looked at
 
 
@@ -144,7 +144,7 @@ class _Body:
             stalled = step > _STALLED * last
             if stalled or (step**2 <= BELOW * size * last and change <= EPS * _largest(force)):
                 break
-        rate = _STUCK if step > max(_STALLED * last, _CERTAIN * size) else 2.0 * min(step / last, 1.0)
+        rate = _STUCK if step > _STALLED * last else 2.0 * step / last
         return found, force, (rate * step, rate * change)
 
     def displacement(self, load, active, reduced=None):

@@ -10,6 +10,7 @@ from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.found import NO_DIGIT, Found, size_of
+from signorini.solvers.residual import EPS
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
@@ -64,21 +65,14 @@ def solve(problem, method="auto", guess=None):
     check_solvable(problem)
     exponent = _exponent(problem)
     scaled = _scaled(problem, -exponent)
-    constant = _constant(scaled)
-    shifted = _shifted(scaled, constant)
     if method != "fourier":
-        check_symmetric(shifted.A)
-    found, method, reason = _find(shifted, method, reason, guess)
-    if not constant and np.ptp(found.u) <= _NEARLY_CONSTANT * largest(found.u):
-        # Nothing but the solution shows that all of the body stays near a constant, far from its obstacle.
-        constant = float(np.min(found.u))
-        shifted = _shifted(scaled, constant)
-        found, method, reason = _find(shifted, method, reason, found.active)
-    u, variation = found.u, size_of(found.u)
+        check_symmetric(scaled.A)
+    shifted, constant, (found, method, reason) = _counted(scaled, method, reason, guess)
+    u = found.u
     active, c = found.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
-    accuracy = found.accuracy + _stored(u, constant, variation)
+    accuracy = _accuracy(found, constant)
     if not accuracy <= NO_DIGIT:
         from signorini.solvers.hierarchy import causes
 
@@ -113,6 +107,45 @@ def solve(problem, method="auto", guess=None):
         deviation=deviation,
         problem=problem,
     )
+
+
+def _counted(problem, method, reason, guess):
+    """The problem counted from a constant, that constant, and what is found for it.
+
+    Where data do not show that all of the body stays near a constant, far from its obstacle, a first solution does.
+    """
+    rest = _at_rest(problem)
+    if rest is not None:
+        return problem, 0.0, (rest, method, reason)
+    constant = _constant(problem, near=[problem.fixed_values, problem.lower])
+    shifted = _shifted(problem, constant)
+    far = _constant(problem, near=[problem.fixed_values])
+    try:
+        found = _find(shifted, method, reason, guess)
+        varies = np.ptp(found[0].u) > _NEARLY_CONSTANT * largest(found[0].u)
+    except SolverError:
+        if constant or not far:
+            raise
+        varies = False
+    if constant or varies or not far:
+        return shifted, constant, found
+    shifted = _shifted(problem, far)
+    return shifted, far, _find(shifted, method, reason, None)
+
+
+def _at_rest(problem):
+    """The answer where a constant meets every condition exactly, None elsewhere.
+
+    A route would find the constant and its own rounding, which has no size to be measured by.
+    """
+    values, nothing = problem.fixed_values, np.zeros_like(problem.lower)
+    if not values.size or np.ptp(values) or np.any(problem.lower > values[0]):
+        return None
+    loaded = np.count_nonzero(problem.b) > np.count_nonzero(problem.b[problem.fixed])
+    if loaded or not (problem.grid is not None or problem.mesh.in_one_part):
+        return None
+    touching = problem.lower == values[0]
+    return Found(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
 
 
 def _find(problem, method, reason, guess):
@@ -168,11 +201,15 @@ def _obstruction(method, problem):
     return room.obstruction(problem) if hasattr(room, "obstruction") else None
 
 
-def _stored(u, constant, variation):
-    """What storing u to the last bit costs, relative to its variation."""
-    if not variation:
-        return 0.0
-    return float(np.finfo(float).eps * max(abs(np.min(u) + constant), abs(np.max(u) + constant)) / variation)
+def _accuracy(found, constant):
+    """That of u itself, whose last bit is relative to the constant, too.
+
+    It is relative to the variation of u; or to its size, where u is a constant but for that last bit.
+    """
+    variation, size = size_of(found.u), max(abs(np.min(found.u) + constant), abs(np.max(found.u) + constant))
+    last_bit = float(EPS * size) if found.accuracy or np.ptp(found.u) else 0.0
+    relative_to = variation if variation > 4.0 * last_bit else size
+    return float((found.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
 
 
 def _with_constant(problem, deviation, constant, active):
@@ -184,12 +221,12 @@ def _with_constant(problem, deviation, constant, active):
     return u
 
 
-def _constant(problem):
+def _constant(problem, near):
     """A constant that u, its Dirichlet values and the obstacle may be counted from; zero where that gains no digits.
 
     Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding would.
     """
-    values = np.concatenate([problem.fixed_values, problem.lower])
+    values = np.concatenate(near)
     low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
     if not (values.size and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))):
         return 0.0

@@ -9,10 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from skfem import MeshTri
 
 from builders import DATA, delaunay, grid, statement
 from signorini.elements import ELEMENTS
 from signorini.exceptions import SolverError
+from signorini.mesh import Triangulation
 from signorini.problem import discretize, discretize_on
 from signorini.solvers import METHODS, kkt_residual, multigrid, solve
 from signorini.studies.extended import judge
@@ -38,6 +40,11 @@ def solved_by(problem, *methods):
 
 @pytest.fixture(params=ELEMENTS)
 def element(request):
+    return request.param
+
+
+@pytest.fixture(params=METHODS)
+def method(request):
     return request.param
 
 
@@ -112,15 +119,14 @@ def assert_proved(solution, truth):
     u_error = float(np.abs(solution.deviation - expected).max()) / variation
     assert u_error <= 10 * solution.accuracy
     assert solution.accuracy <= 1000 * max(u_error, 4 * eps)
-    force = float(np.abs(truth.multiplier).max())
-    force_error = float(np.abs(solution.multiplier - truth.multiplier).max()) / force
+    decided = solution.active & ~solution.undecided
+    force_error = truth.multiplier_distance(solution.multiplier, decided)
     assert force_error <= 10 * solution.multiplier_accuracy
-    assert solution.multiplier_accuracy <= 1000 * max(force_error, 4 * eps)
+    assert solution.multiplier_accuracy <= 1000 * max(force_error, 4 * truth.rounding(decided))
     sure = (truth.margin > 1) & ~solution.undecided
     np.testing.assert_array_equal(solution.active[sure], truth.active[sure])
 
 
-@pytest.mark.parametrize("method", ["fourier", "direct", "multigrid"])
 def test_a_constant_costs_no_digit_of_what_is_counted_from_it(method):
     """Obstacle and Dirichlet values 1e10: once 21 in contact, and an error of 4.9e-3."""
     plain, moved = paper("P1", 64), paper("P1", 64, obstacle=1e10, dirichlet=1e10)
@@ -161,7 +167,6 @@ def test_auto_falls_back_to_direct_and_says_so(monkeypatch):
         solve(problem, "multigrid")
 
 
-@pytest.mark.parametrize("method", METHODS)
 def test_undecided_are_the_unknowns_without_gap_and_force(method):
     """f = 1 on the obstacle 1/2 touches everywhere, and presses by round-off alone."""
     solution = solve(discretize_on(grid(8), "CR", statement(f=1, obstacle=0.5)), method)
@@ -183,3 +188,108 @@ def test_the_force_per_length_belongs_to_the_contact_points(element, mesh):
         start, end = mesh.facet_ends(problem.contact)
         middle = 0.5 * (mesh.points(start) + mesh.points(end))
         np.testing.assert_array_equal(problem.contact_points, middle)
+
+
+@pytest.mark.parametrize("contrast", [1e18, 1e30])
+def test_contrasts_that_doubles_cannot_hold_are_refused(element, contrast):
+    """Stiff parts of 1e24 and more beside 1 were once called solved, wrong by up to 100 %."""
+    problem = discretize_on(grid(8), element, statement(f="6*sin(6*x)", coefficient=f"where(y < .5, {contrast}, 1)"))
+    for method in ("auto", "direct", "multigrid"):
+        with pytest.raises(SolverError, match=r"data\.coefficient: from 1 to .* cannot hold side by side"):
+            solve(problem, method)
+
+
+@pytest.mark.parametrize("obstacle", [-1e5, -1e10, -1e14, "where(x < .5, -1e9, 0)"])
+def test_an_obstacle_far_below_costs_no_digit(element, method, obstacle):
+    problem = discretize_on(grid(12), element, statement(f="6*sin(6*x)", obstacle=obstacle))
+    solution = solve(problem, method)
+    assert solution.status == "solved"
+    assert_proved(solution, judge(problem))
+
+
+@pytest.mark.parametrize("size", [(1e-3, 1.0), (1e-6, 1.0)])
+def test_narrow_grids_by_the_fourier_route(element, size):
+    """Its last correction once was no measure of its error here."""
+    x = f"(x/{size[0]})"
+    data = {"f": f"6*sin(6*{x})/{size[0]}**2", "dirichlet": f".01*sin(5*{x})", "obstacle": -0.02}
+    problem = discretize_on(grid(12, size=size), element, statement(**data))
+    truth = judge(problem)
+    for method in ("fourier", "direct"):
+        solution = solve(problem, method)
+        assert float(truth.distance(solution.u)) <= 10 * solution.accuracy
+        assert solution.status == "solved"
+
+
+def two_squares(right):
+    """Two squares apart; the left one hangs from a Dirichlet side, the right one is in contact below, or free."""
+    left, other = grid(3).skfem, grid(3).skfem.translated((2.0, 0.0))
+    both = MeshTri(np.hstack([left.p, other.p]), np.hstack([left.t, other.t + left.nvertices]))
+    x, y = both.p[:, both.facets].mean(axis=1)
+    edge = both.boundary_facets()
+    x, y = x[edge], y[edge]
+    names = {"dirichlet": (x < 1.5) & (y == 1), right: (x > 1.5) & (y == 0)}
+    names["neumann"] = ~np.any(list(names.values()), axis=0) | names.get("neumann", False)
+    return Triangulation.from_skfem(both.with_boundaries({name: edge[has] for name, has in names.items()}))
+
+
+@pytest.mark.parametrize(
+    ("right", "load", "message"),
+    [
+        (
+            "contact",
+            "where(x > 1.5, 1, 0)",
+            r"unbounded: no dirichlet part of the part of the body with \(2(\.16667)?, 0\)",
+        ),
+        (
+            "contact",
+            "where(x > 1.5, 0, 1)",
+            r"nonunique: no dirichlet part of the part of the body with \(2(\.16667)?, 0\)",
+        ),
+        ("neumann", "1", "a part of the body is loose"),
+    ],
+)
+def test_every_part_of_a_body_must_rest(element, method, right, load, message):
+    if method == "fourier":
+        pytest.skip("not for a body in parts")
+    problem = discretize_on(two_squares(right), element, statement(f=load))
+    with pytest.raises(SolverError, match=message):
+        solve(problem, method)
+
+
+def test_a_part_that_rests_on_the_obstacle_alone(element):
+    problem = discretize_on(two_squares("contact"), element, statement(f=-1))
+    solution = solve(problem, "direct")
+    assert solution.status == "solved"
+    assert solution.multiplier.sum() == pytest.approx(1, rel=1e-12)
+
+
+@pytest.mark.parametrize("guess", [[True], [0, 1, 2], np.full(9, np.nan)])
+def test_a_guess_is_a_mask_of_the_contact_dofs(guess):
+    problem = discretize_on(grid(8), "P1", statement(f=-1))
+    with pytest.raises(SolverError, match=r"guess: shape .* give a mask of the contact dofs, shape \(9,\) of bool"):
+        solve(problem, guess=np.asarray(guess))
+
+
+BROKEN = {
+    "too few": ({"lower": np.zeros(3)}, r"problem\.lower: 3 values for 5 dofs in problem\.contact"),
+    "beyond": ({"contact": np.array([0, 1, 2, 3, 99])}, r"problem\.contact: a dof is not one of the 25"),
+    "twice": ({"contact": np.array([0, 1, 2, 3, 24])}, r"problem\.contact: a dof is in problem\.fixed, too"),
+    "no material": ({"coefficient": np.zeros(32)}, r"data\.coefficient: not positive and finite everywhere"),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_a_problem_that_does_not_fit_together_is_refused_by_name(case):
+    change, message = BROKEN[case]
+    problem = discretize_on(grid(4), "P1", statement(f=-1))
+    with pytest.raises(SolverError, match=message):
+        solve(replace(problem, **change))
+
+
+def test_a_constant_far_above_the_obstacle_is_found_by_a_first_solution(method):
+    """Dirichlet values 1e8 on the obstacle 0, which nothing touches."""
+    problem = discretize_on(grid(12), "P1", statement(f="sin(6*x)", dirichlet=1e8))
+    solution = solve(problem, method)
+    plain = solve(discretize_on(grid(12), "P1", statement(f="sin(6*x)", obstacle=-1e3)))
+    assert solution.constant == 1e8
+    np.testing.assert_allclose(solution.deviation, plain.u, rtol=0, atol=1e-15)

@@ -248,12 +248,11 @@ def two_squares(right):
         ("neumann", "1", "a part of the body is loose"),
     ],
 )
-def test_every_part_of_a_body_must_rest(element, method, right, load, message):
-    if method == "fourier":
-        pytest.skip("not for a body in parts")
+@pytest.mark.parametrize("route", ["direct", "multigrid"])
+def test_every_part_of_a_body_must_rest(element, route, right, load, message):
     problem = discretize_on(two_squares(right), element, statement(f=load))
     with pytest.raises(SolverError, match=message):
-        solve(problem, method)
+        solve(problem, route)
 
 
 def test_a_part_that_rests_on_the_obstacle_alone(element):

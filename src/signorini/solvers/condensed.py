@@ -13,6 +13,7 @@ from signorini.exceptions import SolverError
 from signorini.solvers.count import count
 from signorini.solvers.hierarchy import causes
 from signorini.solvers.residual import EPS
+from signorini.solvers.solution import largest
 
 _LEAF = 8
 _SINGULAR = 1e-13  # of its diagonal entry: a pivot so small may show a loose part of the body
@@ -91,7 +92,7 @@ class Condensed:
         rhs[split:] = self.S_sprung @ w + (load[self.contact] - reduced)
         found = self.factors.solve(rhs)
         missed = w - found[split:]
-        if _largest(missed) > _MISSED * _largest(w):
+        if largest(missed) > _MISSED * largest(w):
             # An ill-conditioned S misses w in its last digits, which a stiff neighbour would feel.
             rhs[:split], rhs[split:] = 0.0, self.S_sprung @ missed
             found += self.factors.solve(rhs)
@@ -105,10 +106,10 @@ def _springs(problem):
     """About the size of S on each contact dof: the coefficient there, a power of two; shape (nc,)."""
     if problem.coefficient is None:
         return np.ones(problem.contact.size)
-    largest = np.zeros(problem.b.size)
+    stiffest = np.zeros(problem.b.size)
     dofs = find_element(problem.element).triangle_dofs(problem.mesh)
-    np.maximum.at(largest, dofs, np.broadcast_to(problem.coefficient, dofs.shape))
-    return 2.0 ** np.round(np.log2(largest[problem.contact]))
+    np.maximum.at(stiffest, dofs, np.broadcast_to(problem.coefficient, dofs.shape))
+    return 2.0 ** np.round(np.log2(stiffest[problem.contact]))
 
 
 def why_singular(problem):
@@ -132,10 +133,6 @@ def loose_part(problem):
     if held.all():
         return None
     return find_element(problem.element).nodes(problem.mesh, np.flatnonzero(~held[part])[:1])[:, 0]
-
-
-def _largest(values):
-    return float(np.max(np.abs(values), initial=0.0))
 
 
 def dissection_order(A, nodes):

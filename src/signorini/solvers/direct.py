@@ -17,6 +17,7 @@ from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.found import NO_DIGIT, Errors, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
+from signorini.solvers.solution import largest
 
 _MAX_STEPS = 100
 _STRICT = 10  # steps in which signs count that may be rounding
@@ -105,7 +106,7 @@ class _Body:
             correction, force, left = self._correction(u, active)
             gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
             u = u + correction
-            if _largest(correction) <= _SMALL * np.ptp(u):
+            if largest(correction) <= _SMALL * np.ptp(u):
                 break
         return u, gap, force, left
 
@@ -116,14 +117,14 @@ class _Body:
         """
         r, size = residual(self.problem.A, self.problem.b, u, self.sums), float(np.ptp(u))
         z, force = self.displacement(r, active)
-        if self.even and _largest(z) <= _CERTAIN * size:
-            return z, force, (_largest(z) ** 2 / size if size else 0.0, 0.0)
+        if self.even and largest(z) <= _CERTAIN * size:
+            return z, force, (largest(z) ** 2 / size if size else 0.0, 0.0)
         return self._by_gradients(r, z, force, size, active)
 
     def _by_gradients(self, r, z, force, size, active):
         """The same by conjugate gradients, where factors keep few digits; `z` and `force` are what they make of r."""
         found, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
-        rz, step, change = np.inf, _largest(z), np.inf
+        rz, step, change = np.inf, largest(z), np.inf
         last = step
         for _ in range(_STEPS):
             if not step:
@@ -139,10 +140,10 @@ class _Body:
             found += length * p
             r -= length * Ap
             z, forced = self.displacement(r, active)
-            last, step = step, _largest(z)
-            change, force = _largest(forced - force), forced
+            last, step = step, largest(z)
+            change, force = largest(forced - force), forced
             stalled = step > _STALLED * last
-            if stalled or (step**2 <= BELOW * size * last and change <= EPS * _largest(force)):
+            if stalled or (step**2 <= BELOW * size * last and change <= EPS * largest(force)):
                 break
         rate = _STUCK if step > _STALLED * last else 2.0 * step / last
         return found, force, (rate * step, rate * change)
@@ -166,7 +167,7 @@ class _Body:
         held = active & ~unsure
         if np.array_equal(held, active) or not (self.problem.fixed.size or held.any()):
             return 0.0
-        return _largest(self.displacement(self.sample, held)[0])
+        return largest(self.displacement(self.sample, held)[0])
 
     def errors(self, u, active, left):
         """Estimated errors of a refined solution.
@@ -184,7 +185,7 @@ class _Body:
         samples = np.copysign(rounding[:, None], signs)
         reduced, self.sample = self.condensed.reduce(samples), samples[:, -1]
         moved, pressed = self.displacement(samples, active, reduced)
-        largest_u, largest_force = _largest(moved[:, 1:]), _largest(pressed[:, 1:])
+        largest_u, largest_force = largest(moved[:, 1:]), largest(pressed[:, 1:])
         on_contact = moved[problem.contact].T
         gaps, forces = (bound_of(found[0], found[1:]) for found in (on_contact, pressed.T))
         acting = np.max((fluxes + np.abs(problem.b))[problem.contact], initial=0.0)
@@ -196,7 +197,3 @@ class _Body:
 
 def _inexact(problem):
     return stiffness_errors(problem.mesh, find_element(problem.element), problem.coefficient)
-
-
-def _largest(values):
-    return float(np.max(np.abs(values), initial=0.0))

@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from importlib.util import find_spec
 
 import pytest
@@ -15,6 +16,9 @@ pytestmark = [
     pytest.mark.skipif(bool(MISSING), reason=f"no {', '.join(MISSING)}: apt-get install slurm-wlm munge"),
     pytest.mark.skipif(
         not find_spec("snakemake_executor_plugin_slurm"), reason="pip install snakemake-executor-plugin-slurm"
+    ),
+    pytest.mark.skipif(
+        " " in sys.executable, reason="the plugin for Slurm writes Python's path unquoted, with its space"
     ),
     pytest.mark.skipif(os.geteuid() != 0, reason="a node of Slurm is started by root"),
     pytest.mark.skipif(os.path.exists("/etc/slurm/slurm.conf"), reason="this machine has a Slurm, left alone"),

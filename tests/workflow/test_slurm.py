@@ -17,9 +17,7 @@ pytestmark = [
     pytest.mark.skipif(
         not find_spec("snakemake_executor_plugin_slurm"), reason="pip install snakemake-executor-plugin-slurm"
     ),
-    pytest.mark.skipif(
-        " " in sys.executable, reason="the plugin for Slurm writes Python's path unquoted, with its space"
-    ),
+    pytest.mark.skipif(" " in sys.executable, reason="the plugin for Slurm does not quote the path of Python"),
     pytest.mark.skipif(os.geteuid() != 0, reason="a node of Slurm is started by root"),
     pytest.mark.skipif(os.path.exists("/etc/slurm/slurm.conf"), reason="this machine has a Slurm, left alone"),
 ]

@@ -1,5 +1,7 @@
 """Closed-form stiffness matrices against those of scikit-fem."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -9,7 +11,7 @@ from skfem.helpers import dot, grad
 from builders import delaunay, grid, perturbed
 from signorini.assembly import assemble_stiffness, facet_couplings
 from signorini.elements import ELEMENTS
-from signorini.mesh import Triangulation
+from signorini.mesh import Grid, Triangulation
 
 MESHES = {
     "falling grid": lambda: grid(4, 3, size=(2.0, 0.3)),
@@ -75,12 +77,37 @@ def test_the_coarse_matrix_is_the_galerkin_product():
         assert abs(product - assemble_stiffness(coarse, ELEMENTS["P1"])).max() < 1e-13
 
 
+def couplings(mesh):
+    """k_ij, shape (3, nt); in extended precision on stretched cells, where both products cancel."""
+    if isinstance(mesh, Grid) or mesh.stretch <= 8:
+        return facet_couplings(mesh)
+    a, b, c = (mesh.p[:, corner].astype(np.longdouble) for corner in mesh.t)
+    edges = b - a, c - b, a - c
+    area = np.abs(edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0])
+    pairs = ((1, 2), (2, 0), (0, 1))
+    return np.stack([0.5 * (edges[i] * edges[j]).sum(axis=0) / area for i, j in pairs])
+
+
+def test_needles_across_the_axes_have_couplings_right_to_the_last_bit():
+    """One turned by 30 degrees, a million times as long as high: in double precision ten digits would be lost."""
+    turn, height = np.array([[np.sqrt(0.75), -0.5], [0.5, np.sqrt(0.75)]]), 1e-6
+    p = turn @ np.array([[0.0, 1.0, 0.4], [0.0, 0.0, height]])
+    mesh = Triangulation(p, np.array([[0], [1], [2]]), {"neumann": np.array([[0, 1, 0], [1, 2, 2]])})
+    A = assemble_stiffness(mesh, ELEMENTS["P1"]).toarray()
+    corners = [[Fraction(value) for value in corner] for corner in p.T.tolist()]
+    ab, bc, ca = ([q - r for q, r in zip(corners[j], corners[i], strict=True)] for i, j in ((0, 1), (1, 2), (2, 0)))
+    doubled = 2 * abs(ab[0] * bc[1] - ab[1] * bc[0])
+    expected = [float((u[0] * v[0] + u[1] * v[1]) / doubled) for u, v in ((bc, ca), (ca, ab), (ab, bc))]
+    np.testing.assert_allclose([A[0, 1], A[1, 2], A[0, 2]], expected, rtol=1e-15)
+
+
 def test_p1_is_the_matrix_that_its_couplings_add_up_to(mesh):
     """To the last bit, entry by entry, summed in another way."""
-    k, (start, end), count = facet_couplings(mesh), mesh.facets, mesh.number_of_vertices
-    coupling = np.zeros(mesh.number_of_facets)
+    k, (start, end), count = couplings(mesh), mesh.facets, mesh.number_of_vertices
+    coupling = np.zeros(mesh.number_of_facets, dtype=k.dtype)
     for facet, values in zip(mesh.t2f, k, strict=True):
         np.add.at(coupling, facet, values)
+    coupling = coupling.astype(float)
     expected = np.zeros((count, count))
     expected[start, end] = expected[end, start] = coupling
     sums = np.zeros((2, count))

@@ -7,8 +7,9 @@ by k_ij, CR the two other facets of T by 4 k_ij; all rows of both matrices sum t
 import numpy as np
 
 from signorini.blocks import blocks
+from signorini.mesh.grid import Grid
 
-_TYPICAL = 0.25 * np.finfo(float).eps  # of the terms of a product over twice the area: half their last bit, mostly less
+_STRETCHED = 8.0  # cells on needles across the axes keep few digits of a coupling, which extended precision makes good
 
 
 def assemble_stiffness(mesh, element, coefficient=None):
@@ -26,35 +27,8 @@ def assemble_stiffness(mesh, element, coefficient=None):
     scipy.sparse.csr_array, shape (ndof, ndof)
         Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not stored.
     """
-    return _assembled(mesh, element, facet_couplings(mesh, coefficient))
-
-
-def stiffness_errors(mesh, element, coefficient=None):
-    """What rounding changes in the off-diagonal entries of `assemble_stiffness`, mostly, beyond their last bits.
-
-    A coupling is a scalar product over a cross product of edges. On needles that lie across the axes both cancel, and
-    keep only the digits that their terms leave them.
-
-    Returns
-    -------
-    scipy.sparse.csr_array, shape (ndof, ndof)
-        Their sizes as off-diagonal entries; rows sum to zero.
-    """
-    errors = np.empty((3, mesh.number_of_triangles))
-    for cells in blocks(mesh.number_of_triangles):
-        edges = mesh.edge_vectors(cells)
-        x, y = edges[:, 0], edges[:, 1]
-        area = np.abs(x[0] * y[1] - y[0] * x[1])
-        for facet in range(3):
-            one, other = facet - 2, facet - 1
-            dot = x[one] * x[other] + y[one] * y[other]
-            terms = np.abs(x[one] * x[other]) + np.abs(y[one] * y[other])
-            crossed = np.abs(x[one] * y[other]) + np.abs(y[one] * x[other])
-            errors[facet, cells] = _TYPICAL * (terms + np.abs(dot) * (crossed / area)) / area
-    return _assembled(mesh, element, errors if coefficient is None else errors * coefficient)
-
-
-def _assembled(mesh, element, couplings):
+    stretched = not isinstance(mesh, Grid) and mesh.stretch > _STRETCHED
+    couplings = (_extended_couplings if stretched else facet_couplings)(mesh, coefficient)
     A = (_vertex_matrix if element.name == "P1" else _facet_matrix)(mesh, couplings)
     A.eliminate_zeros()
     return A
@@ -69,6 +43,15 @@ def facet_couplings(mesh, coefficient=None):
         for facet in range(3):
             one, other = edges[facet - 2], edges[facet - 1]
             k[facet, cells] = (one[0] * other[0] + one[1] * other[1]) * scale
+    return k if coefficient is None else k * coefficient
+
+
+def _extended_couplings(mesh, coefficient):
+    """The same in extended precision: a scalar product and a cross product of edges, both of which may cancel."""
+    x, y = mesh.p.astype(np.longdouble)[:, mesh.t]
+    dx, dy = (np.roll(part, -1, axis=0) - part for part in (x, y))
+    one, other = [1, 2, 0], [2, 0, 1]
+    k = 0.5 * (dx[one] * dx[other] + dy[one] * dy[other]) / np.abs(dx[0] * dy[1] - dx[1] * dy[0])
     return k if coefficient is None else k * coefficient
 
 
@@ -92,7 +75,12 @@ def _upper_triangle(mesh, couplings):
 
     start, end = mesh.facets
     count = mesh.number_of_vertices
-    coupling = np.bincount(mesh.t2f.ravel(), couplings.ravel(), minlength=start.size)
+    if couplings.dtype == float:
+        coupling = np.bincount(mesh.t2f.ravel(), couplings.ravel(), minlength=start.size)
+    else:
+        total = np.zeros(start.size, dtype=couplings.dtype)
+        np.add.at(total, mesh.t2f, couplings)
+        coupling = total.astype(float)
     first = np.zeros(count + 1, dtype=np.int32)
     np.cumsum(np.bincount(start, minlength=count), out=first[1:])
     return csr_array((coupling, end, first), shape=(count, count))
@@ -104,7 +92,7 @@ def _facet_matrix(mesh, couplings):
 
     t2f, count = mesh.t2f.astype(np.int32, copy=False), mesh.number_of_facets
     ones, others = (np.concatenate([t2f[pair[side]] for pair in ((1, 2), (2, 0), (0, 1))]) for side in (0, 1))
-    coupling = 4.0 * couplings.ravel()
+    coupling = 4.0 * couplings.ravel().astype(float)
     diagonal = -np.bincount(ones, coupling, minlength=count) - np.bincount(others, coupling, minlength=count)
     own = np.arange(count, dtype=t2f.dtype)
     rows, columns = np.concatenate([ones, others, own]), np.concatenate([others, ones, own])

@@ -7,11 +7,8 @@ estimated, and the contact set is held against the forces and gaps that come out
 
 import numpy as np
 
-from signorini.assembly import stiffness_errors
-from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, check_memory
-from signorini.mesh.grid import Grid
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.found import NO_DIGIT, Errors, better, bound_of, proved, to_close, wrong_signs
@@ -21,10 +18,10 @@ from signorini.solvers.solution import largest
 
 _MAX_STEPS = 100
 _STRICT = 10  # steps in which signs count that may be rounding
-_CORRECTIONS, _STEPS = 10, 40
+_CORRECTIONS, _STEPS = 10, 200
 _SMALL = 1e-6  # a correction of which share of u needs no other
 _CERTAIN = 1e-11  # a correction by good factors of which share of u is one to the last digits
-_STALLED = 0.7  # of the correction before
+_STALLED, _PATIENCE = 0.7, 12  # of the least correction before, and how many corrections to wait for less
 _STUCK = 20.0  # what may be left of corrections that stall, over the last
 _SAMPLES = 2  # random signs of the rounding errors whose effect is looked at
 
@@ -77,7 +74,6 @@ class _Body:
         self.operator = DenseContact(self.condensed.S) if problem.contact.size else None
         self.sums = row_sums(problem.A)
         stretched = problem.mesh.stretch > STRETCHED
-        self.inexact = _inexact(problem) if stretched and not isinstance(problem.mesh, Grid) else None
         self.even = not (stretched or jumps(problem.coefficient))
 
     def contact_set(self, u, guess):
@@ -106,7 +102,8 @@ class _Body:
             correction, force, left = self._correction(u, active)
             gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
             u = u + correction
-            if largest(correction) <= _SMALL * np.ptp(u):
+            size = np.ptp(u)
+            if largest(correction) <= _SMALL * size and left[0] <= _CERTAIN * size:
                 break
         return u, gap, force, left
 
@@ -125,7 +122,7 @@ class _Body:
         """The same by conjugate gradients, where factors keep few digits; `z` and `force` are what they make of r."""
         found, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, largest(z), np.inf
-        last = step
+        last, best, waited = step, step, 0
         for _ in range(_STEPS):
             if not step:
                 return found, force, (0.0, 0.0)
@@ -142,10 +139,11 @@ class _Body:
             z, forced = self.displacement(r, active)
             last, step = step, largest(z)
             change, force = largest(forced - force), forced
-            stalled = step > _STALLED * last
-            if stalled or (step**2 <= BELOW * size * last and change <= EPS * largest(force)):
+            waited = waited + 1 if step > _STALLED * best else 0
+            best = min(best, step)
+            if waited > _PATIENCE or (step**2 <= BELOW * size * last and change <= EPS * largest(force)):
                 break
-        rate = _STUCK if step > _STALLED * last else 2.0 * step / last
+        rate = _STUCK if waited else 2.0 * step / last
         return found, force, (rate * step, rate * change)
 
     def displacement(self, load, active, reduced=None):
@@ -177,8 +175,7 @@ class _Body:
         """
         problem = self.problem
         _, fluxes = residual_and_fluxes(problem.A, problem.b, u, sums=self.sums)
-        inexact = 0.0 if self.inexact is None else residual_and_fluxes(self.inexact, 0.0 * problem.b, u)[1]
-        rounding = rounding_of(problem.b, fluxes, inexact)
+        rounding = rounding_of(problem.b, fluxes)
         rounding[problem.fixed] = 0.0
         signs = np.random.default_rng(0).random((u.size, 1 + _SAMPLES)) - 0.5
         signs[:, 0] = 1.0
@@ -193,7 +190,3 @@ class _Body:
         bounds = gaps + left[0], forces + left[1]
         loads = np.abs(reduced[:, 0])
         return Errors(largest_u + left[0], largest_force + left[1], *bounds, loads, stiffness, acting)
-
-
-def _inexact(problem):
-    return stiffness_errors(problem.mesh, find_element(problem.element), problem.coefficient)

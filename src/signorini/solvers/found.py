@@ -9,7 +9,7 @@ from signorini.solvers.solution import SOLVED
 
 _TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
 LEAST_FORCE = 1e-6  # of the forces acting: a contact force smaller than this is not what others are measured by
-SAFETY, _PESSIMISM = 3.0, 30.0  # of a bound over the sample at the same dof, at least; over the largest, at most
+SAFETY, _PESSIMISM = 3.0, 1e3  # of a bound over the sample at the same dof, at least; over the largest, at most
 ROUNDING = 64.0  # roundings of the largest gap and force, below which a sign may be one
 NO_DIGIT = 0.1  # error of u, relative to its variation, from which there is no solution to return
 

@@ -14,15 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.assembly import stiffness_errors
-from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
 from signorini.memory import MULTIGRID, check_memory
-from signorini.mesh.grid import Grid
 from signorini.solvers.count import counting
 from signorini.solvers.found import NO_DIGIT, Errors, better, to_close, wrong_signs
-from signorini.solvers.hierarchy import HALF, STRETCHED, build_hierarchy, causes
-from signorini.solvers.residual import residual_and_fluxes
+from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
 from signorini.solvers.search import Search
 
 _STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge; measured
@@ -71,14 +67,10 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
 
 def _proved(problem, search):
     """Solve to the last bit, until no sign is wrong beyond its own error."""
-    stretched = not isinstance(problem.mesh, Grid) and problem.mesh.stretch > STRETCHED
-    kind = find_element(problem.element)
-    errors_of_A = stiffness_errors(problem.mesh, kind, problem.coefficient) if stretched else None
     first = None
     while True:
         search.run(0.0)
-        inexact = 0.0 if errors_of_A is None else residual_and_fluxes(errors_of_A, 0.0 * problem.b, search.u)[1]
-        errors = search.errors(inexact)
+        errors = search.errors()
         if not errors.u <= NO_DIGIT * np.ptp(search.u):
             raise SolverError(f"domain: no digit of the solution survives rounding: {causes(problem)}")
         wrong = wrong_signs(search.active, search.gap, search.force, errors)

@@ -81,14 +81,12 @@ def _by_differences(A, b, u, rows, sums, fluxes):
     return found
 
 
-def rounding_of(b, fluxes, inexact=0.0):
+def rounding_of(b, fluxes):
     """A bound of what rounding does to each row of `residual`, of the couplings to doubles included, shape (m,).
 
     Parameters
     ----------
     b, fluxes : ndarray, shape (m,)
         See `residual_and_fluxes`.
-    inexact : ndarray, shape (m,), optional
-        What the couplings' errors beyond their last bit do: the `fluxes` of `assembly.stiffness_errors`.
     """
-    return EPS * (_FLUX * fluxes + np.abs(b)) + inexact
+    return EPS * (_FLUX * fluxes + np.abs(b))

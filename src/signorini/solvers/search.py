@@ -116,13 +116,13 @@ class Search:
         r, self.fluxes = residual_and_fluxes(self.A, b, self.u, sums=level.sums)
         return Descent(self, r, 0.0)
 
-    def errors(self, inexact):
+    def errors(self):
         """Estimated errors.
 
         As on the direct route, rounding of every row is a load, pushing one way or with random signs.
         """
         c, b = self.obstacle.contact, self.obstacle.b
-        rounding = rounding_of(b, self.fluxes, inexact)
+        rounding = rounding_of(b, self.fluxes)
         loads = rounding, np.copysign(rounding, np.random.default_rng(0).random(b.size) - 0.5)
         if self.levels[0].robust or self.levels[0].P is None:
             pushed, pressed, moved, forced = self._responses(*loads)

@@ -131,7 +131,8 @@ def answered(row):
     """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
 
     Of u and of the contact forces, those alone may be inaccurate that are so in double precision, or that undecided
-    contact dofs might move or bear; and the residual may be what rounding to doubles makes of the truth's.
+    contact dofs might move or bear; and the residual may be what rounding to doubles makes of the truth's, or
+    what undecided contact dofs make of it.
     """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
@@ -140,7 +141,8 @@ def answered(row):
     needed = row["undecided"] or all(
         row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM for which in ("", "multiplier_")
     )
-    return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"]))
+    told = row["accuracy"] + row["multiplier_accuracy"] if row["undecided"] else 0.0
+    return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"], told))
 
 
 def right(row):

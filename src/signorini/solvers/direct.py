@@ -11,7 +11,7 @@ from signorini.exceptions import SolverError
 from signorini.memory import DIRECT, check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
-from signorini.solvers.found import NO_DIGIT, Errors, better, bound_of, proved, to_close, wrong_signs
+from signorini.solvers.found import NO_DIGIT, SAFETY, Errors, Released, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
 from signorini.solvers.solution import largest
@@ -161,11 +161,13 @@ class _Body:
         return self.condensed.extend(load, w, reduced), force
 
     def released(self, active, unsure):
-        """By how much rounding moves u at most with unsure dofs of a contact set let go; 0 where nothing else holds."""
+        """What rounding does with unsure dofs of a contact set let go; None where there are none, or nothing holds."""
         held = active & ~unsure
         if np.array_equal(held, active) or not (self.problem.fixed.size or held.any()):
-            return 0.0
-        return largest(self.displacement(self.sample, held)[0])
+            return None
+        moved, forces = self.displacement(self.sample, held)
+        gaps = SAFETY * np.abs(moved[self.problem.contact])
+        return Released(largest(moved), gaps, SAFETY * np.abs(forces))
 
     def errors(self, u, active, left):
         """Estimated errors of a refined solution.

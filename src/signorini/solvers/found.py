@@ -115,7 +115,15 @@ def to_close(u, active, gap, errors):
     return apart & (gap <= _TOUCHING * variation)
 
 
-def proved(u, active, iterations, gap, force, errors, released=0.0):
+class Released(NamedTuple):
+    """What rounding does at most where dofs that may not bind are let go: to u, to each gap and to each force (nc,)."""
+
+    u: float
+    gaps: np.ndarray
+    forces: np.ndarray
+
+
+def proved(u, active, iterations, gap, force, errors, released=None):
     """The answer of a route none of whose signs are wrong.
 
     An undecided dof may be on the other side, and move by what its force could do, or press by what its gap could.
@@ -127,13 +135,14 @@ def proved(u, active, iterations, gap, force, errors, released=0.0):
     gap, force : ndarray, shape (nc,)
         Of the contact dofs.
     errors : Errors
-    released : float
-        By how much rounding moves u at most where undecided dofs that bind are let go, if a route knows it better than
-        by their own forces and stiffness.
+    released : Released, optional
+        With the undecided dofs let go that bind, if there are any and a route knows it. What it moves may be on the
+        other side, too.
     """
-    undecided = np.where(active, force <= errors.forces, gap <= errors.gaps)
+    released = released or Released(0.0, 0.0, 0.0)
+    undecided = np.where(active, force <= errors.forces + released.forces, gap <= errors.gaps + released.gaps)
     binding, apart = active & undecided, ~active & undecided
-    moved = max(released, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
+    moved = max(released.u, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
     pressed = _largest(force, binding) + _largest(errors.loads, apart)
     variation = size_of(u)
     accuracy = _share(errors.u + moved, variation)

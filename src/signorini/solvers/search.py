@@ -8,7 +8,7 @@ from signorini.exceptions import SolverError
 from signorini.solvers.contact import Exchange
 from signorini.solvers.count import count
 from signorini.solvers.descent import Descent, solved
-from signorini.solvers.found import SAFETY, Errors, bound_of, proved
+from signorini.solvers.found import SAFETY, Errors, Released, bound_of, proved
 from signorini.solvers.hierarchy import preconditioner
 from signorini.solvers.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.solution import largest
@@ -43,18 +43,20 @@ class Search:
     def found(self, errors):
         """The answer, with its errors."""
         unsure = self.active & (self.force <= errors.forces)
-        released = self._released(unsure) if unsure.any() else 0.0
+        released = self._released(unsure) if unsure.any() else None
         return proved(self.u, self.active, self.steps, self.gap, self.force, errors, released)
 
     def _released(self, dofs):
-        """By how much rounding moves u at most with some contact dofs let go; zero where nothing else holds it."""
-        held = self.obstacle.held(self.active & ~dofs)
+        """What rounding does with some contact dofs let go; None where nothing else holds."""
+        c, held = self.obstacle.contact, self.obstacle.held(self.active & ~dofs)
         if not held.any():
-            return 0.0
+            return None
         rounding = rounding_of(self.obstacle.b, self.fluxes)
         sample = np.copysign(rounding, np.random.default_rng(0).random(held.size) - 0.5)
         cycle = preconditioner(self.levels, held)
-        return largest(solved(self.levels[0], cycle, np.where(held, 0.0, sample), _ESTIMATE))
+        x = solved(self.levels[0], cycle, np.where(held, 0.0, sample), _ESTIMATE)
+        forces = np.where(held[c], np.abs(self.rows @ x - sample[c]), 0.0)
+        return Released(largest(x), SAFETY * np.abs(x[c]), SAFETY * forces)
 
     def run(self, tolerance):
         """Improve u and contact set until the error is `tolerance` of what u varies, or round-off; no sign is wrong."""

@@ -52,7 +52,10 @@ def claims(success, statuses, digits, extremes):
 
 
 def _estimates(answers):
-    span = f"at least 1/{UNDERESTIMATE:g} of the error, at most {OVERESTIMATE:g} times it"
+    span = (
+        f"at least 1/{UNDERESTIMATE:g} of the error; at most {OVERESTIMATE:g} times it, where no contact unknown is "
+        "undecided"
+    )
     return [
         _all(f"accuracy {of}, as stated: {span}", answers, lambda row, which=which: estimated(row, which))
         for which, of in (("", "of u"), ("multiplier_", "of the contact forces"))

@@ -151,9 +151,13 @@ def right(row):
 
 
 def estimated(row, which=""):
-    """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand times the error."""
+    """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand times the error.
+
+    With undecided contact dofs it has no upper bound: it tells what they could do on the other side, too.
+    """
     accuracy, error, floor = (row[f"{which}{name}"] for name in ("accuracy", "error", "floor"))
-    return bool(error <= UNDERESTIMATE * accuracy and accuracy <= OVERESTIMATE * max(error, floor))
+    close = row["undecided"] or accuracy <= OVERESTIMATE * max(error, floor)
+    return bool(error <= UNDERESTIMATE * accuracy and close)
 
 
 def statuses(rows):

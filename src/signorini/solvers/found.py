@@ -141,6 +141,8 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     """
     released = released or Released(0.0, 0.0, 0.0)
     undecided = np.where(active, force <= errors.forces + released.forces, gap <= errors.gaps + released.gaps)
+    if undecided.any():  # then any sign no surer than the least sure error of all may depend on theirs
+        undecided |= np.where(active, force <= SAFETY * errors.force, gap <= SAFETY * errors.u)
     binding, apart = active & undecided, ~active & undecided
     moved = max(released.u, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
     pressed = _largest(force, binding) + _largest(errors.loads, apart)

@@ -18,6 +18,7 @@ from signorini.solvers.residual import residual, row_sums
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
 STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+_WILD = 2.0  # weight of an interpolation that positive couplings have spoilt
 _EXACT = 1e6  # range of the diagonal beyond which products are taken by differences
 _JUMP = 30.0  # of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow
 HALF = 0.5 - 1e-9
@@ -129,10 +130,12 @@ def _algebraic(A, robust=False):
     """Levels that follow the large entries of A alone."""
     if A.shape[0] <= _SMALL:
         return [Level(A, robust=robust)]
-    from pyamg import ruge_stuben_solver
+    from pyamg import ruge_stuben_solver, smoothed_aggregation_solver
     from scipy.sparse import csr_array, csr_matrix
 
     found = ruge_stuben_solver(csr_matrix(A), max_coarse=_SMALL).levels
+    if any(abs(level.P).max() > _WILD for level in found[:-1]):
+        found = smoothed_aggregation_solver(csr_matrix(A), max_coarse=_SMALL).levels
     coarsest = Level(csr_array(found[-1].A), robust=robust)
     return [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]] + [coarsest]
 

@@ -12,9 +12,10 @@ from builders import DATA, delaunay, gap, grid, labelled, nodes, perturbed, stat
 from signorini.elements import ELEMENTS
 from signorini.exceptions import SolverError
 from signorini.mesh import Triangulation
-from signorini.problem import discretize_on
+from signorini.problem import discretize, discretize_on
 from signorini.solvers import solve
 from signorini.solvers.condensed import Condensed, dissection_order
+from signorini.statement import ProblemStatement
 
 MESHES = {
     "grid": lambda labels: grid(5, 4, labels),
@@ -211,6 +212,21 @@ def test_without_contact_it_is_poissons_equation(mesh_of, element):
     solution = solve(problem, "direct")
     np.testing.assert_allclose(solution.u, u, rtol=0, atol=1e-12)
     assert solution.active.size == solution.multiplier.size == solution.iterations == 0
+
+
+@pytest.mark.parametrize("method", ["direct", "auto"])
+@pytest.mark.parametrize("aspect", [0.25, 0.7, 1, 3, 4])
+@pytest.mark.parametrize("diagonal", ["falling", "rising", "criss-cross"])
+def test_a_body_held_at_one_contact_unknown_alone_puts_all_its_weight_on_it(diagonal, aspect, method):
+    """The condensed matrix is zero then, up to a rounding of either sign."""
+    domain = {"origin": [0, 0], "size": [1, aspect], "diagonal": diagonal, "cells": "per-side"}
+    boundary = {"bottom": "contact", "right": "neumann", "top": "neumann", "left": "neumann"}
+    data = {"f": -0.7, "g": 0, "obstacle": -1.8, "dirichlet": 0}
+    scene = {"domain": domain, "boundary": boundary, "data": data, "load_quadrature": "exact"}
+    problem = discretize(ProblemStatement.from_mapping(scene), "CR", 1)
+    solution = solve(problem, method)
+    assert solution.multiplier == pytest.approx([0.7 * aspect], rel=1e-14)
+    assert solution.status == "solved"
 
 
 def test_a_loose_part_is_refused():

@@ -144,7 +144,9 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     if undecided.any():  # then any sign no surer than the least sure error of all may depend on theirs
         undecided |= np.where(active, force <= SAFETY * errors.force, gap <= SAFETY * errors.u)
     binding, apart = active & undecided, ~active & undecided
-    moved = max(released.u, _largest(force / errors.stiffness, binding)) + _largest(gap, apart)
+    stiffness = np.broadcast_to(errors.stiffness, force.shape)
+    shift = np.divide(force, stiffness, out=np.full(force.shape, np.inf), where=stiffness > 0.0)
+    moved = max(released.u, _largest(shift, binding)) + _largest(gap, apart)
     pressed = _largest(force, binding) + _largest(errors.loads, apart)
     variation = size_of(u)
     accuracy = _share(errors.u + moved, variation)

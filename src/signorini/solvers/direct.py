@@ -69,8 +69,8 @@ class _Body:
 
     def __init__(self, problem):
         self.problem, self.condensed = problem, Condensed(problem)
-        pivoted = problem.fixed.size == 0 and problem.contact.size == 1  # S is zero then, rounded to either sign
-        if np.any(self.condensed.S.diagonal() <= 0.0) and not pivoted:
+        alone = not problem.fixed.size and problem.contact.size == 1  # S is zero then, rounded to either sign
+        if np.any(self.condensed.S.diagonal() <= 0.0) and not alone:
             raise SolverError(why_singular(problem))
         self.operator = DenseContact(self.condensed.S) if problem.contact.size else None
         self.sums = row_sums(problem.A)

@@ -74,16 +74,12 @@ def solve(problem, method="auto", guess=None):
     residual, _ = kkt_residual(shifted, u)
     accuracy = _accuracy(found, constant)
     if not accuracy <= NO_DIGIT:
-        from signorini.solvers.hierarchy import causes
-
-        raise SolverError(f"domain: no digit of the solution survives rounding: {causes(problem)}")
+        raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
     status = status_of(residual, accuracy, found.multiplier_accuracy)
     if status == "failed":
-        from signorini.solvers.hierarchy import causes
-
         raise SolverError(
-            f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; {causes(problem)}, or try "
-            "another solver.method"
+            f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
+            f"{_causes(problem)}, or try another solver.method"
         )
     multiplier = np.where(active, np.maximum(found.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
@@ -164,9 +160,13 @@ def _by_route(problem, method, guess):
     try:
         return Found(*getattr(importlib.import_module(module), function)(problem, guess))
     except (np.linalg.LinAlgError, FloatingPointError) as error:
-        from signorini.solvers.hierarchy import causes
+        raise SolverError(f"domain: {method}: {error}; {_causes(problem)}") from error
 
-        raise SolverError(f"domain: {method}: {error}; {causes(problem)}") from error
+
+def _causes(problem):
+    from signorini.solvers.hierarchy import causes
+
+    return causes(problem)
 
 
 def _choose(problem, method):

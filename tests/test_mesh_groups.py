@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from builders import GMSH_NODES
 from signorini import boundary
 from signorini.coefficient import coefficient_on
 from signorini.exceptions import MeshError
@@ -43,19 +44,6 @@ ENTITIES = """$Entities
 2 0 0 0 1 1 0 2 4 5 3 -5 3 4
 $EndEntities
 """
-NODES = """$Nodes
-1 4 1 4
-2 1 0 4
-1
-2
-3
-4
-0 0 0
-1 0 0
-1 1 0
-0 1 0
-$EndNodes
-"""
 BLOCKS = [
     (0, 1, [1]),
     (1, 1, [1, 2]),
@@ -91,13 +79,13 @@ PARTITIONED = """$PartitionedEntities
 7 2 1 1 2 0 0 0 1 1 0 1 4 3 1 2 5
 $EndPartitionedEntities
 """
-PARAMETRIC = NODES.replace("2 1 0 4", "2 1 1 4").replace(
+PARAMETRIC = GMSH_NODES.replace("2 1 0 4", "2 1 1 4").replace(
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "0 0 0 7 7\n1 0 0 7 7\n1 1 0 7 7\n0 1 0 7 7\n"
 )
-SPARSE = NODES.replace("\n1\n2\n3\n4\n", "\n4000000000\n2\n3\n4\n")
+SPARSE = GMSH_NODES.replace("\n1\n2\n3\n4\n", "\n4000000000\n2\n3\n4\n")
 
 
-def text(entities=ENTITIES, nodes=NODES, elements=ELEMENTS, names=NAMES):
+def text(entities=ENTITIES, nodes=GMSH_NODES, elements=ELEMENTS, names=NAMES):
     """The file in text."""
     return HEADER + names + entities + nodes + elements
 

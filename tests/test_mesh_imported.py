@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from builders import GMSH_NODES
 from signorini.exceptions import MeshError
 from signorini.mesh import imported, inflate
 from signorini.mesh.child import run_apart
@@ -51,7 +52,7 @@ def gmsh(p=SQUARE.p.T, t=SQUARE.t.T, lines=None, names=True, nodes=None):
 
 
 # The unit square in two triangles, as Gmsh 4.1 writes it; its right side is in two physical groups.
-GMSH41 = """$MeshFormat
+GMSH41 = f"""$MeshFormat
 4.1 0 8
 $EndMeshFormat
 $PhysicalNames
@@ -69,19 +70,7 @@ $Entities
 4 0 0 0 0 1 0 1 2 0
 1 0 0 0 1 1 0 1 4 4 1 2 3 4
 $EndEntities
-$Nodes
-1 4 1 4
-2 1 0 4
-1
-2
-3
-4
-0 0 0
-1 0 0
-1 1 0
-0 1 0
-$EndNodes
-$Elements
+{GMSH_NODES}$Elements
 5 6 1 6
 1 1 1 1
 1 1 2

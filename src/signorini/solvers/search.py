@@ -16,6 +16,7 @@ from signorini.solvers.solution import largest
 _MAX_STEPS, _DESCENTS = 300, 30
 _ROUGH = 1e-12  # error, of what u varies, to which plain products do
 _STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
+_SHRUNK = 8.0  # times what u varies now: if it varied by more, its error was measured by too much
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
 _RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
 
@@ -95,7 +96,8 @@ class Search:
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
             self.force = np.where(active, -descent.r[obstacle.contact], 0.0)
             stays = descent.error > 0.5 * before
-            if wrong.any() or (descent.converged and descent.tolerance == tolerance):
+            shrunk = descent.size > _SHRUNK * np.ptp(u) and (np.ptp(u) or before == np.inf)
+            if wrong.any() or (descent.converged and descent.tolerance == tolerance and not shrunk):
                 break
             if stays and descent.error <= _STAYS * np.ptp(u):
                 break

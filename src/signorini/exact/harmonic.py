@@ -24,7 +24,11 @@ def square_root(x, y):
 
 
 class Harmonic(ExactSolution):
-    """A solution without load above the line y = y0; obstacle zero."""
+    """A solution without load above the line y = y0; obstacle zero.
+
+    A family says by `_factors` what its value and its gradient have in common, and by `_value` and `_gradient` how they
+    follow from that.
+    """
 
     obstacle = Formula("0", "obstacle")
     constant_load = 0.0
@@ -36,6 +40,16 @@ class Harmonic(ExactSolution):
 
     def load(self, x, y):
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+    def value(self, x, y):
+        return self._value(*self._factors(x, y))
+
+    def gradient(self, x, y):
+        return self._gradient(*self._factors(x, y))
+
+    def value_and_gradient(self, x, y):
+        found = self._factors(x, y)
+        return self._value(*found), *self._gradient(*found)
 
 
 @dataclass(frozen=True)
@@ -54,17 +68,7 @@ class Corner(Harmonic):
         """The point (x0, y0)."""
         return ((self.x0, self.y0),)
 
-    def value(self, x, y):
-        return self._value(*self._roots(x, y))
-
-    def gradient(self, x, y):
-        return self._gradient(*self._roots(x, y))
-
-    def value_and_gradient(self, x, y):
-        found = self._roots(x, y)
-        return self._value(*found), *self._gradient(*found)
-
-    def _roots(self, x, y):
+    def _factors(self, x, y):
         """Return (x, y, p, q), coordinates about the point and the square root p + iq of x + iy."""
         x, y = np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0))
         return x, y, *square_root(x, y)
@@ -100,16 +104,6 @@ class Punch(Harmonic):
     def critical_points(self):
         """The points (x0 - a, y0) and (x0 + a, y0)."""
         return (self.x0 - self.half_width, self.y0), (self.x0 + self.half_width, self.y0)
-
-    def value(self, x, y):
-        return self._value(*self._factors(x, y))
-
-    def gradient(self, x, y):
-        return self._gradient(*self._factors(x, y))
-
-    def value_and_gradient(self, x, y):
-        found = self._factors(x, y)
-        return self._value(*found), *self._gradient(*found)
 
     def _value(self, t, _, m):
         c = np.sqrt(1.0 + t * t)

@@ -19,20 +19,6 @@ DATA = {
     "dirichlet": "0.2 + 0.1*sin(4*x + 3*y)",
     "obstacle": "0.1*cos(6*x) - 0.1*y",
 }
-# The corners of the unit square, as Gmsh 4.1 writes them.
-GMSH_NODES = """$Nodes
-1 4 1 4
-2 1 0 4
-1
-2
-3
-4
-0 0 0
-1 0 0
-1 1 0
-0 1 0
-$EndNodes
-"""
 
 
 def statement(labels=PAPER, load_quadrature="exact", domain=None, **data):

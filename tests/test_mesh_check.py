@@ -1,4 +1,4 @@
-"""Triangulations: every way to be none is named (case 16), against an exact oracle on random corruptions."""
+"""Triangulations: every way to be none is named, against an exact oracle on random corruptions."""
 
 import itertools
 import warnings

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from builders import GMSH_NODES
+from mesh_texts import GMSH_NODES
 from signorini import boundary
 from signorini.coefficient import coefficient_on
 from signorini.exceptions import MeshError
@@ -136,16 +136,6 @@ VARIANTS = {
     "binary, other order of bytes": binary(">", 8),
     "binary, 32 bits": binary("<", 4),
 }
-
-
-@pytest.fixture
-def write(tmp_path):
-    def write(content, name="mesh.msh"):
-        path = tmp_path / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return write
 
 
 @pytest.fixture(autouse=True)

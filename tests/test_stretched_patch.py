@@ -1,4 +1,4 @@
-"""The patch test on stretched cells (case 9), and poles that quadrature misses (case 14)."""
+"""The patch test on stretched cells, and poles that quadrature misses."""
 
 import numpy as np
 import pytest
@@ -22,14 +22,14 @@ def contact_patch(element, size, method="auto"):
 
 @elements
 @pytest.mark.parametrize("size", [(1.0, 1e-2), (1e-2, 1.0)], ids=["flat", "tall"])
-def test_case_09_a_patch_of_aspect_one_hundredth_is_solved(element, size):
+def test_a_patch_of_aspect_one_hundredth_is_solved(element, size):
     solution, error = contact_patch(element, size)
     assert error < 1e-10
     assert solution.status == "solved"
 
 
 @elements
-def test_case_09_a_tall_patch_of_aspect_one_millionth_is_as_accurate_as_it_says(element):
+def test_a_tall_patch_of_aspect_one_millionth_is_as_accurate_as_it_says(element):
     """Its matrix loses ten digits to rounding; with residuals by differences the solution loses none of them."""
     solution, error = contact_patch(element, (1e-6, 1.0))
     assert error <= 10 * solution.accuracy
@@ -38,7 +38,7 @@ def test_case_09_a_tall_patch_of_aspect_one_millionth_is_as_accurate_as_it_says(
 
 
 @elements
-def test_case_09_a_flat_patch_of_aspect_one_hundred_millionth_is_solved(element):
+def test_a_flat_patch_of_aspect_one_hundred_millionth_is_solved(element):
     """Along the strong direction no digit is lost."""
     solution, error = contact_patch(element, (1.0, 1e-8))
     assert error < 1e-12
@@ -48,7 +48,7 @@ def test_case_09_a_flat_patch_of_aspect_one_hundred_millionth_is_solved(element)
 @elements
 @pytest.mark.parametrize("pole", ["0.5", "0.25"], ids=["at vertices", "at edge midpoints"])
 @pytest.mark.parametrize("rule", ["centroid", "exact"])
-def test_case_14_a_pole_that_quadrature_misses_is_named(element, pole, rule):
+def test_a_pole_that_quadrature_misses_is_named(element, pole, rule):
     asked = statement(load_quadrature=rule, f=f"1/(x - {pole})")
     with pytest.raises(FormulaError, match=rf"data\.f: value is -?inf at \(x, y\) = \({pole}, 0\.\d+\)"):
         discretize(asked, element, 2)

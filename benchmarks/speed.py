@@ -86,7 +86,7 @@ def run_nested(linear):
         from scipy.sparse import eye_array
 
         import signorini
-        from signorini.elements import element as find_element
+        from signorini.fem.elements import element as find_element
 
         asked = scene()
         linear(eye_array(200, format="csr"))(np.ones(200))  # imports
@@ -147,7 +147,7 @@ def run_auto(element, n):
 
 def refined_square(n):
     """The paper's square as a general triangulation, refined from 4 by 4 cells, with its matrix."""
-    from signorini.mesh import Triangulation
+    from signorini.mesh.triangulation import Triangulation
 
     coarse = scene().problem.triangulations.level(4)
     ends = {label: coarse.facets[:, coarse.boundary_facets(label)] for label in set(coarse.labels)}
@@ -162,7 +162,7 @@ def run_multigrid(tolerance=None):
 
     def prepare(element, n):
         import signorini
-        from signorini.problem import discretize_on
+        from signorini.fem.problem import discretize_on
         from signorini.solvers.hierarchy import build_hierarchy
         from signorini.solvers.multigrid import solve_multigrid
 
@@ -195,7 +195,7 @@ def run_multigrid(tolerance=None):
 def run_errors(element, n):
     """Evaluate both norms of the 12 solutions against the P1 reference."""
     import signorini
-    from signorini.errors import ReferenceErrors
+    from signorini.errors.reference import ReferenceErrors
 
     asked = scene()
     reference = signorini.discretize(asked, "P1", n)

@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "src"))
 from keys import key_list  # noqa: E402 (the path above must come first)
 
 from signorini.exact import FAMILIES  # noqa: E402
-from signorini.strict_yaml import load_yaml  # noqa: E402
+from signorini.scene.strict_yaml import load_yaml  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
@@ -90,7 +90,7 @@ def keys():
         "scenes": "| scene | what it is |\n| :--- | :--- |\n" + rows,
         "families": families(),
         "keys of config.yaml": key_list(schema, [config]),
-        "keys of a scene": key_list(load_yaml(ROOT / "src/signorini/scene.schema.yaml"), scenes.values()),
+        "keys of a scene": key_list(load_yaml(ROOT / "src/signorini/scene/schema.yaml"), scenes.values()),
     }
 
 

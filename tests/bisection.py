@@ -5,8 +5,8 @@
 
 import numpy as np
 
-from signorini.mesh import Triangulation
 from signorini.mesh.check import unique_facets
+from signorini.mesh.triangulation import Triangulation
 
 
 def bisected(mesh, marked_of, target_vertices):

@@ -4,10 +4,11 @@ import numpy as np
 from scipy.spatial import Delaunay
 from skfem import MeshTri
 
-from signorini.boundary import SIDES
-from signorini.elements import element as find_element
-from signorini.mesh import Grid, Triangulation
-from signorini.statement import ProblemStatement
+from signorini.fem.elements import element as find_element
+from signorini.mesh.boundary import SIDES
+from signorini.mesh.grid import Grid
+from signorini.mesh.triangulation import Triangulation
+from signorini.scene.statement import ProblemStatement
 
 PAPER = ("contact", "neumann", "dirichlet", "neumann")  # what holds on the sides of Section 5, as in SIDES
 UNIT = ((0.0, 0.0), (1.0, 1.0))

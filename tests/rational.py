@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from signorini.elements import element as find_element
+from signorini.fem.elements import element as find_element
 from signorini.mesh.grid import Grid
 
 

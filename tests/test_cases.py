@@ -10,56 +10,56 @@ import pytest
 from hypothesis import given, settings
 
 from builders import statement
-from signorini.elements import ELEMENTS
-from signorini.problem import discretize
+from signorini.fem.elements import ELEMENTS
+from signorini.fem.problem import discretize
 from signorini.solvers import METHODS, solve
-from signorini.studies import stability_extremes as extremes
-from signorini.studies.bodies import FAMILIES
-from signorini.studies.scenes import problems
-from signorini.studies.stability_floor import stretching
-from signorini.studies.stability_proof import answered, estimated, statuses
-from signorini.studies.stability_success import HARD, measure
+from signorini.studies.stability import extremes as extremes
+from signorini.studies.stability.bodies import FAMILIES
+from signorini.studies.stability.proof import answered, estimated, statuses
+from signorini.studies.stability.round_off import stretching
+from signorini.studies.stability.scenes import problems
+from signorini.studies.stability.success import HARD, measure
 
 HERE = Path(__file__).parent
 ELSEWHERE = {
-    "1 plain active set cycles": ["test_contact.py::test_known_solution_where_the_plain_method_cycles"],
+    "1 plain active set cycles": ["solvers/test_contact.py::test_known_solution_where_the_plain_method_cycles"],
     "4 bounded least squares": [
-        "test_contact.py::test_bounded_least_squares_agrees",
-        "test_direct.py::test_bounded_least_squares_agrees",
+        "solvers/test_contact.py::test_bounded_least_squares_agrees",
+        "solvers/test_direct.py::test_bounded_least_squares_agrees",
     ],
     "5 empty and full contact sets, no load": [
-        "test_solve.py::test_full_and_empty_contact_sets_take_few_steps",
-        "test_solve.py::test_nothing_gives_exactly_nothing",
+        "solvers/test_solve.py::test_full_and_empty_contact_sets_take_few_steps",
+        "solvers/test_solve.py::test_nothing_gives_exactly_nothing",
     ],
     "6 renumbering, scaling, subnormal data": [
-        "test_solve.py::test_renumbering_changes_nothing",
-        "test_solve.py::test_powers_of_two_pass_through_unrounded",
-        "test_errors.py::test_powers_of_two_pass_through_unrounded",
-        "test_solve.py::test_subnormal_data_are_warned_of",
+        "solvers/test_solve.py::test_renumbering_changes_nothing",
+        "solvers/test_solve.py::test_powers_of_two_pass_through_unrounded",
+        "errors/test_errors.py::test_powers_of_two_pass_through_unrounded",
+        "solvers/test_solve.py::test_subnormal_data_are_warned_of",
     ],
     "7 nonunique, unbounded, incompatible, no contact": [
-        "test_solve.py::test_problems_without_a_solution_are_named",
-        "test_solve.py::test_a_body_without_dirichlet_part_rests_on_the_obstacle",
-        "test_problem.py::test_an_obstacle_above_the_dirichlet_data_at_a_shared_corner_is_refused",
-        "test_problem.py::test_an_obstacle_that_meets_the_dirichlet_data_at_a_shared_corner_is_accepted",
-        "test_direct.py::test_without_contact_it_is_poissons_equation",
+        "solvers/test_solve.py::test_problems_without_a_solution_are_named",
+        "solvers/test_solve.py::test_a_body_without_dirichlet_part_rests_on_the_obstacle",
+        "fem/test_problem.py::test_an_obstacle_above_the_dirichlet_data_at_a_shared_corner_is_refused",
+        "fem/test_problem.py::test_an_obstacle_that_meets_the_dirichlet_data_at_a_shared_corner_is_accepted",
+        "solvers/test_direct.py::test_without_contact_it_is_poissons_equation",
     ],
     "8 unit of length, offset, resolution": [
-        "test_solve.py::test_the_unit_of_length_does_not_matter",
-        "test_solve.py::test_case_08_the_origin_does_not_matter",
-        "test_domain.py::test_sides_are_found_at_any_scale_and_offset",
-        "test_domain.py::test_coordinates_without_resolution_are_refused",
+        "solvers/test_solve.py::test_the_unit_of_length_does_not_matter",
+        "solvers/test_solve.py::test_case_08_the_origin_does_not_matter",
+        "mesh/test_domain.py::test_sides_are_found_at_any_scale_and_offset",
+        "mesh/test_domain.py::test_coordinates_without_resolution_are_refused",
     ],
     "9 stretched cells": [
-        "test_solve.py::test_stretched_cells_cost_the_fourier_route_no_digits",
-        "test_solve.py::test_the_direct_route_never_calls_a_wrong_answer_solved",
+        "solvers/test_solve.py::test_stretched_cells_cost_the_fourier_route_no_digits",
+        "solvers/test_solve.py::test_the_direct_route_never_calls_a_wrong_answer_solved",
     ],
     "10 an iteration limit, no table": ["workflow/test_mistakes.py::test_a_scene_that_cannot_be_solved"],
-    "11 expected rates": ["test_scenes.py::test_an_exact_scene_finds_what_it_expects"],
+    "11 expected rates": ["scene/test_scenes.py::test_an_exact_scene_finds_what_it_expects"],
     "13 small differences, no logarithm of zero": [
-        "test_errors.py::test_tiny_differences_are_measured",
-        "test_errors.py::test_the_reference_itself_has_no_error",
-        "test_rates.py::test_an_error_without_logarithm_is_named",
+        "errors/test_errors.py::test_tiny_differences_are_measured",
+        "errors/test_errors.py::test_the_reference_itself_has_no_error",
+        "errors/test_rates.py::test_an_error_without_logarithm_is_named",
     ],
 }
 
@@ -90,7 +90,7 @@ def test_case_3_success_rate(family, monkeypatch):
 
     Bodies graded or stiff in parts, and large constants, may be less than solved where double precision can no more.
     """
-    monkeypatch.setattr("signorini.studies.stability_success.RIVALS", {})
+    monkeypatch.setattr("signorini.studies.stability.success.RIVALS", {})
     seeds = range(3 if family in HARD else 6)
     rows = measure(family, seeds, few=0, time_limit=1.0)
     assert sum(row["solver"] == "ours" for row in rows) == 14 * len(seeds)
@@ -150,7 +150,7 @@ def test_case_10_one_thread_or_two():
     program = (
         "import sys; sys.path[:0] = ['src', 'tests']\n"
         "from builders import DATA, statement\n"
-        "from signorini.problem import discretize\n"
+        "from signorini.fem.problem import discretize\n"
         "from signorini.solvers import METHODS, solve\n"
         "for element in ('P1', 'CR'):\n"
         "    for method in METHODS:\n"

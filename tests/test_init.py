@@ -36,7 +36,10 @@ def modules_after(code):
             {"numpy", "scipy", "skfem", "matplotlib"},
         ),
         ("from signorini import solve", {"scipy", "skfem", "yaml", "jsonschema", "matplotlib"}),
-        ("from signorini.errors import ReferenceErrors", {"scipy", "skfem", "yaml", "jsonschema", "matplotlib"}),
+        (
+            "from signorini.errors.reference import ReferenceErrors",
+            {"scipy", "skfem", "yaml", "jsonschema", "matplotlib"},
+        ),
     ],
     ids=["package", "scene room", "a scene", "solvers", "errors"],
 )
@@ -55,7 +58,7 @@ def test_an_unknown_name_is_no_attribute():
         signorini.solv  # noqa: B018
 
 
-@pytest.mark.parametrize("module", ["signorini", "signorini.problem", "signorini.solvers.select"])
+@pytest.mark.parametrize("module", ["signorini", "signorini.fem.problem", "signorini.solvers.select"])
 def test_the_examples_of_the_docstrings_run(module, monkeypatch):
     monkeypatch.chdir(ROOT)
     failed, tried = doctest.testmod(importlib.import_module(module))

@@ -8,8 +8,8 @@ from bisection import l_shape
 from builders import grid, statement
 from signorini import memory
 from signorini.exceptions import MeshError
-from signorini.mesh import make_domain
-from signorini.problem import discretize_on
+from signorini.fem.problem import discretize_on
+from signorini.mesh.domain import make_domain
 from signorini.solvers import solve
 
 SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}

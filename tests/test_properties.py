@@ -19,12 +19,13 @@ from skfem.helpers import dot, grad
 
 from scenes_at_random import LABELS, MOVES, SMOOTH, changed_mesh, scenes
 from signorini.exceptions import MeshError, SignoriniError
-from signorini.mesh import Grid, imported
+from signorini.fem.problem import discretize
+from signorini.mesh import imported
+from signorini.mesh.grid import Grid
 from signorini.mesh.imported import import_mesh
 from signorini.mesh.parse import parse
 from signorini.mesh.patterns import alternating
-from signorini.problem import discretize
-from signorini.scene import load_scene
+from signorini.scene.scene import load_scene
 from signorini.solvers import solve
 from signorini.solvers.fourier import obstruction
 

@@ -14,10 +14,10 @@ __version__ = "0.1.0"
 # Public name -> its room; a room is entered when first asked for, so that importing signorini costs nothing.
 _ROOMS = {
     "SignoriniError": "exceptions",
-    "Scene": "scene",
-    "load_scene": "scene",
-    "Problem": "problem",
-    "discretize": "problem",
+    "Scene": "scene.scene",
+    "load_scene": "scene.scene",
+    "Problem": "fem.problem",
+    "discretize": "fem.problem",
     "Solution": "solvers",
     "solve": "solvers",
     "kkt_residual": "solvers",

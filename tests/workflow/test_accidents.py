@@ -187,7 +187,10 @@ def stamp(path, clock):
 @pytest.mark.parametrize(
     ("path", "jobs"),
     [
-        ("src/signorini/rates.py", {"rates": 1, "check": 1, "verify": 1, "table_5_1": 1, "figures_5_2_and_5_3": 1}),
+        (
+            "src/signorini/errors/rates.py",
+            {"rates": 1, "check": 1, "verify": 1, "table_5_1": 1, "figures_5_2_and_5_3": 1},
+        ),
         ("config/published/table_5_1.csv", {"check": 1, "verify": 1}),
     ],
     ids=["code", "data"],

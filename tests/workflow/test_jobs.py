@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from project import LATEX, SMALL, inputs_of_scripts, left_out, modules_of, side_by_side
 
-from signorini.mesh import read_domain
+from signorini.mesh.domain import read_domain
 
 FIGURES = {"figures": 1}
 ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES

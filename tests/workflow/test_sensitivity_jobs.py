@@ -47,7 +47,7 @@ def test_the_full_study_is_another(built):
 
 def test_an_edited_page_solves_nothing_again(built, tmp_path):
     project = built[0].copy(tmp_path / "project")
-    path = "src/signorini/studies/sensitivity_page.py"
+    path = "src/signorini/studies/sensitivity/page.py"
     project.write(path, (project / path).read_text(encoding="utf-8") + "# a comment\n")
     assert project.jobs(*QUICK) == {"sensitivity": 1}
 

@@ -7,8 +7,8 @@ from datetime import date
 import pytest
 from project import LATEX, Project, rooms_of, undeclared
 
-from signorini.studies.bodies import FAMILIES
-from signorini.typeset import typeset
+from signorini.report.typeset import typeset
+from signorini.studies.stability.bodies import FAMILIES
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 

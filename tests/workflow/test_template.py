@@ -5,8 +5,8 @@ import re
 import pytest
 from project import ROOT, Project
 
-from signorini.scene import load_scene, scene_schema
-from signorini.strict_yaml import load_yaml
+from signorini.scene.scene import load_scene, scene_schema
+from signorini.scene.strict_yaml import load_yaml
 
 TEMPLATE = ROOT / "config/template.yaml"
 

@@ -25,13 +25,14 @@ sys.path.insert(0, str(SOURCE.resolve()))
 # The python3 of a job is the one that runs Snakemake.
 os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]))
 
-from signorini.boundary import labels_of
+from signorini.mesh.boundary import labels_of
 from signorini.exceptions import SignoriniError
-from signorini.mesh_files import files_read
-from signorini.norms import RATED
-from signorini.scene import check_name, read_scene
-from signorini.schema import nearest, validated
-from signorini.strict_yaml import load_yaml
+from signorini.mesh.files import files_read
+from signorini.errors.norms import RATED
+from signorini.scene.scene import check_name, read_scene
+from signorini.scene.schema import validated
+from signorini.wording import nearest
+from signorini.scene.strict_yaml import load_yaml
 
 CONFIG_FILE = "config/config.yaml"
 NAME = "[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
@@ -84,7 +85,7 @@ def check_results():
 
 def check_memory(jobs):
     """Refuse to start where a job could not hold its level; on a cluster each job says so itself."""
-    from signorini.foresight import check_level
+    from signorini.scene.memory_check import check_level
 
     for job in jobs:
         if job.rule.name in ("solve", "reference"):
@@ -141,7 +142,7 @@ def check_once(asked):
 
 @cache
 def digest_of_checks():
-    return digest(map(Path, imported_by(SOURCE / "signorini/statement.py")))
+    return digest(map(Path, imported_by(SOURCE / "signorini/scene/statement.py")))
 
 
 def known_scenes():

@@ -7,7 +7,7 @@ STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
 QUICK = CONFIG["quick"]
 
-# As in signorini.studies.bodies.FAMILIES.
+# As in signorini.studies.stability.bodies.FAMILIES.
 PROBLEM_FAMILIES = [
     *("right-angled", "rising", "criss-cross", "delaunay", "perturbed", "stretched", "needles"),
     *("graded", "inclusions", "layers", "oscillating"),

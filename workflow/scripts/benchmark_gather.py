@@ -5,10 +5,10 @@ from pathlib import Path
 
 from stage import options, run
 
-from signorini.scene_tables import read_errors
+from signorini.report.result_files import read_errors
 from signorini.storage import read_csv, write_csv, write_json
-from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
-from signorini.studies.benchmark_summary import summary, with_errors
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
+from signorini.studies.benchmark.summary import summary, with_errors
 from signorini.studies.rivals import RIVALS
 
 

@@ -4,11 +4,11 @@ import json
 
 from stage import options, run
 
-from signorini.results import read_solution
-from signorini.statement import ProblemStatement
+from signorini.scene.statement import ProblemStatement
+from signorini.solvers.stored import read_solution
 from signorini.storage import read_csv, write_csv
-from signorini.studies.benchmark import difference, measure, why_not
-from signorini.studies.benchmark_columns import POINT
+from signorini.studies.benchmark.columns import POINT
+from signorini.studies.benchmark.point import difference, measure, why_not
 
 
 @options(

@@ -5,8 +5,8 @@ import json
 from stage import options, run
 
 from signorini.storage import read_csv, read_json, write_text
-from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
-from signorini.studies.benchmark_report import Report
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.studies.benchmark.report import Report
 
 
 @options("--points", "--rivals", "--summary", "--machine", "--asked", "--tex", "--markdown")

@@ -5,14 +5,14 @@ import json
 from stage import options, run
 
 from signorini.storage import write_csv
-from signorini.studies.benchmark_columns import RIVAL
-from signorini.studies.benchmark_rivals import duel, guarded, patience
+from signorini.studies.benchmark.columns import RIVAL
+from signorini.studies.benchmark.rivals import duel, guarded, patience
 
 
 def rounds(rival, mesh, statement, element, levels, seconds):
     """The rows of `duel`, from what can be sent to another process."""
-    from signorini.mesh import read_domain
-    from signorini.statement import ProblemStatement
+    from signorini.mesh.domain import read_domain
+    from signorini.scene.statement import ProblemStatement
 
     domain, statement = read_domain(mesh), ProblemStatement.from_mapping(json.loads(statement))
     yield from duel(rival, domain, statement, element, levels, seconds)

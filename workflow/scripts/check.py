@@ -4,8 +4,8 @@ import json
 
 from stage import options, run
 
-from signorini.check import compare
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.compare import compare
+from signorini.report.result_files import read_errors, read_rates
 from signorini.storage import read_table, write_csv
 
 

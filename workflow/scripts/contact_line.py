@@ -2,10 +2,10 @@
 
 from stage import options, run
 
-from signorini.contact_line import contact_rows
 from signorini.exceptions import SceneError
-from signorini.mesh import read_domain
-from signorini.results import read_solution
+from signorini.fem.contact_line import contact_rows
+from signorini.mesh.domain import read_domain
+from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
 
 

@@ -4,10 +4,10 @@ import json
 
 from stage import options, run
 
-from signorini.effects import effects_of_choices
-from signorini.scene_tables import read_errors
-from signorini.statement import ProblemStatement
+from signorini.report.result_files import read_errors
+from signorini.scene.statement import ProblemStatement
 from signorini.storage import write_csv
+from signorini.studies.sensitivity.effects import effects_of_choices
 
 NORMS = ("l2", "h1_semi", "h1")
 

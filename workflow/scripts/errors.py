@@ -5,8 +5,9 @@ import json
 from stage import options, run
 
 from signorini.errors import measure
-from signorini.mesh import read_domain
-from signorini.results import read_solution
+from signorini.mesh.domain import read_domain
+from signorini.scene.statement import ProblemStatement
+from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
 
 
@@ -28,7 +29,7 @@ def main(arguments):
         reference, coefficient = read_solution(arguments.reference), json.loads(arguments.coefficient)
         errors = measure.against_reference(reference, domain, norms, arguments.quadrature, coefficient)
     else:
-        errors = measure.against_exact(json.loads(arguments.statement), domain, norms)
+        errors = measure.against_exact(ProblemStatement.from_mapping(json.loads(arguments.statement)), domain, norms)
     rows = [measure.row(read_solution(path), errors) for path in arguments.solutions]
     write_csv(arguments.output, rows)
     return f"errors: {len(rows)} solutions"

@@ -4,8 +4,8 @@ import json
 
 from stage import options, run
 
-from signorini.expect import check_expectations
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.expectations import check_expectations
+from signorini.report.result_files import read_errors, read_rates
 from signorini.storage import write_text
 
 

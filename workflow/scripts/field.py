@@ -2,9 +2,9 @@
 
 from stage import options, run
 
-from signorini.field import field_of
-from signorini.mesh import read_domain
-from signorini.results import read_solution
+from signorini.mesh.domain import read_domain
+from signorini.report.field import field_of
+from signorini.solvers.stored import read_solution
 from signorini.storage import write_npz
 
 

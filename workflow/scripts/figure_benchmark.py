@@ -5,8 +5,8 @@ from stage import options, run
 from signorini.figures import benchmark
 from signorini.figures.style import save_figure
 from signorini.storage import read_csv, read_json
-from signorini.studies.benchmark_columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
-from signorini.studies.benchmark_summary import series
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.studies.benchmark.summary import series
 
 FIGURES = {
     "error": lambda found, rivals, summary: benchmark.draw_error(found),

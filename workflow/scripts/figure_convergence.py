@@ -6,7 +6,7 @@ from stage import options, run
 
 from signorini.figures.convergence import draw_convergence, slopes_of
 from signorini.figures.style import save_figure
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.result_files import read_errors, read_rates
 
 
 @options(

@@ -6,9 +6,9 @@ from stage import options, run
 
 from signorini.figures import stability as figures
 from signorini.figures.style import save_figure
-from signorini.studies.stability_floor import growth
-from signorini.studies.stability_parts import digits_by_cell, error_pairs, read_parts, shares, titles
-from signorini.studies.stability_proof import OVERESTIMATE, UNDERESTIMATE
+from signorini.studies.stability.parts import digits_by_cell, error_pairs, read_parts, shares, titles
+from signorini.studies.stability.proof import OVERESTIMATE, UNDERESTIMATE
+from signorini.studies.stability.round_off import growth
 
 
 @options(("outputs", {"nargs": "+"}))

@@ -9,7 +9,7 @@ from signorini.figures.contact_line import draw_contact_line
 from signorini.figures.convergence import draw_convergence, slopes_of
 from signorini.figures.field import draw_field
 from signorini.figures.style import save_figure
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.result_files import read_errors, read_rates
 from signorini.storage import read_csv, read_npz
 
 OPTIONAL = {"required": False}

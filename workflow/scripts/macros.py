@@ -4,8 +4,8 @@ import json
 
 from stage import options, run
 
-from signorini.macros import CHOICES, macros, paper_values
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.macros import CHOICES, macros, paper_values
+from signorini.report.result_files import read_errors, read_rates
 from signorini.storage import read_csv, read_npz, read_table, write_text
 
 

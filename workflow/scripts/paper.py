@@ -2,8 +2,8 @@
 
 from stage import options, run
 
+from signorini.report.typeset import typeset
 from signorini.storage import read_sealed
-from signorini.typeset import typeset
 
 
 @options("--source", "--check", "--output", ("parts", {"nargs": "+"}))

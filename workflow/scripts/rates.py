@@ -4,9 +4,9 @@ import json
 
 from stage import options, run
 
-from signorini.norms import RATED
-from signorini.rates import rate_rows
-from signorini.scene_tables import read_errors
+from signorini.errors.norms import RATED
+from signorini.errors.rates import rate_rows
+from signorini.report.result_files import read_errors
 from signorini.storage import write_csv
 
 

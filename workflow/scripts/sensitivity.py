@@ -5,9 +5,9 @@ import json
 from stage import options, run
 
 from signorini.storage import read_table, write_text
-from signorini.studies.combinations import combinations, read_errors
 from signorini.studies.page import to_latex, to_markdown
-from signorini.studies.sensitivity_page import page
+from signorini.studies.sensitivity.combinations import combinations, read_errors
+from signorini.studies.sensitivity.page import page
 
 
 @options(

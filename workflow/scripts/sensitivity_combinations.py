@@ -5,7 +5,7 @@ import json
 from stage import options, run
 
 from signorini.storage import read_table, write_csv
-from signorini.studies.combinations import combinations, ratios, read_errors
+from signorini.studies.sensitivity.combinations import combinations, ratios, read_errors
 
 
 @options(

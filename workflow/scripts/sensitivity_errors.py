@@ -4,10 +4,10 @@ import json
 
 from stage import options, run
 
-from signorini.statement import ProblemStatement
+from signorini.scene.statement import ProblemStatement
 from signorini.storage import write_csv
-from signorini.studies.sensitivity import errors_of_diagonal
-from signorini.studies.unsaid import count_solves
+from signorini.studies.sensitivity.solves import errors_of_diagonal
+from signorini.studies.sensitivity.unsaid import count_solves
 
 
 @options("--statement", "--diagonal", "--levels", ("--reference-n", {"type": int}), "--output")

@@ -5,12 +5,12 @@ import logging
 
 from stage import options, run
 
-from signorini.foresight import check_level
-from signorini.mesh import read_domain
-from signorini.problem import discretize_on
-from signorini.results import write_solution
+from signorini.fem.problem import discretize_on
+from signorini.mesh.domain import read_domain
+from signorini.scene.memory_check import check_level
+from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
-from signorini.statement import ProblemStatement
+from signorini.solvers.stored import write_solution
 
 
 @options("--statement", "--mesh", "--element", ("--n", {"type": int}), "--method", "--output")

@@ -19,9 +19,9 @@ def main(arguments):
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = str(arguments.threads)
     # NumPy counts its threads when it is imported.
-    from signorini.statement import ProblemStatement
+    from signorini.scene.statement import ProblemStatement
     from signorini.storage import write_csv
-    from signorini.studies.stability_digits import variant
+    from signorini.studies.stability.digits import variant
 
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
     rows = variant(arguments.variant, statement, json.loads(arguments.scene), arguments.samples)

@@ -3,7 +3,7 @@
 from stage import options, run
 
 from signorini.storage import write_csv
-from signorini.studies import stability_extremes as extremes
+from signorini.studies.stability import extremes as extremes
 
 KINDS = {
     "scaling": lambda values: extremes.scaling([int(k) for k in values]),

@@ -3,7 +3,7 @@
 from stage import options, run
 
 from signorini.storage import write_csv
-from signorini.studies import stability_floor
+from signorini.studies.stability import round_off as stability_floor
 
 
 @options("--piece", ("--levels", {"type": float, "nargs": "+"}), "--output")

@@ -5,8 +5,8 @@ from pathlib import Path
 from stage import options, run
 
 from signorini.storage import write_csv, write_text
-from signorini.studies.stability_parts import CAPTIONS, read_parts
-from signorini.studies.stability_report import Report
+from signorini.studies.stability.parts import CAPTIONS, read_parts
+from signorini.studies.stability.report import Report
 
 
 @options(("--time-limit", {"type": float}), ("--seeds", {"type": int}), "--output")

@@ -3,7 +3,7 @@
 from stage import options, run
 
 from signorini.storage import write_csv
-from signorini.studies.stability_success import measure
+from signorini.studies.stability.success import measure
 
 
 @options(

@@ -2,9 +2,9 @@
 
 from stage import options, run
 
-from signorini.contact_line import contact_line, sampled_surface
-from signorini.mesh import read_domain
-from signorini.results import read_solution
+from signorini.fem.contact_line import contact_line, sampled_surface
+from signorini.mesh.domain import read_domain
+from signorini.solvers.stored import read_solution
 from signorini.storage import write_npz
 
 CELLS = 32

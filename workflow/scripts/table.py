@@ -4,9 +4,9 @@ import json
 
 from stage import options, run
 
-from signorini.scene_tables import read_errors, read_rates
+from signorini.report.result_files import read_errors, read_rates
+from signorini.report.tables import error_table, markdown_table
 from signorini.storage import write_text
-from signorini.tables import error_table, markdown_table
 
 
 @options("--errors", "--rates", ("--asked", {"type": json.loads}), "--slope", "--note", "--tex", "--markdown")

@@ -2,7 +2,7 @@
 
 from stage import options, run
 
-from signorini.check import verdict
+from signorini.report.compare import verdict
 from signorini.storage import read_csv, write_text
 
 

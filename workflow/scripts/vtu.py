@@ -2,9 +2,9 @@
 
 from stage import options, run
 
-from signorini.export import write_vtu
-from signorini.mesh import read_domain
-from signorini.results import read_solution
+from signorini.mesh.domain import read_domain
+from signorini.report.vtu import write_vtu
+from signorini.solvers.stored import read_solution
 
 
 @options("--mesh", "--solution", "--output")

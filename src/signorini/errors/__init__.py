@@ -1,5 +1,1 @@
-"""Errors of discrete solutions against a truth."""
-
-from signorini.errors.reference import ReferenceErrors
-
-__all__ = ["ReferenceErrors"]
+"""Errors of discrete solutions against a truth, their rates, and which of them are round-off alone."""

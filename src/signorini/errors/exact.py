@@ -9,12 +9,12 @@ holds for corner, punch and r**(2/3), and it is 2e-5 and 6e-6 for the two withou
 
 import numpy as np
 
-from signorini.elements import element as find_element
 from signorini.errors.graded import root, scaled_weight
+from signorini.errors.norms import GRADIENT
 from signorini.errors.pieces import Field, pieces
 from signorini.errors.reference import NORMS
 from signorini.exceptions import SceneError
-from signorini.norms import GRADIENT
+from signorini.fem.elements import element as find_element
 
 
 class ExactErrors:
@@ -34,7 +34,7 @@ class ExactErrors:
     Examples
     --------
     >>> from signorini.exact import family
-    >>> from signorini.mesh import Grid
+    >>> from signorini.mesh.grid import Grid
     >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", ("contact", "neumann", "dirichlet", "neumann"))
     >>> ExactErrors(family("patch"), ["l2"]).of(grid, "P1", 1.0 - grid.p[1])["l2"] < 1e-15
     True

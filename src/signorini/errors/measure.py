@@ -1,10 +1,10 @@
 """From stored solutions to the rows of errors.csv."""
 
-from signorini.coefficient import coefficient_on
-from signorini.errors.floor import RoundOff, norm_floors, round_off_alone
+from signorini.errors.norms import CONTACT, REFERENCE
+from signorini.errors.round_off import RoundOff, norm_floors, round_off_alone
 from signorini.exceptions import SceneError
-from signorini.norms import CONTACT, REFERENCE
-from signorini.statement import ProblemStatement, read_coefficient
+from signorini.fem.coefficient import coefficient_on
+from signorini.fem.data import read_coefficient
 
 
 def against_reference(truth, domain, norms, quadrature, coefficient=1):
@@ -51,7 +51,7 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
 
 
 def against_exact(statement, domain, norms):
-    """The same against the exact truth of a scene's statement (a mapping), with the errors on the contact part.
+    """The same against the exact truth of a `ProblemStatement`, with the errors on the contact part.
 
     The function raises `SceneError` where critical points are asked for and none of the exact ones lies there.
     """
@@ -59,8 +59,7 @@ def against_exact(statement, domain, norms):
     from signorini.errors.exact import ExactErrors
     from signorini.errors.unresolved import unresolved
 
-    problem = ProblemStatement.from_mapping(statement)
-    exact, coefficient = problem.exact, problem.data.coefficient
+    exact, coefficient = statement.exact, statement.data.coefficient
     errors = ExactErrors(exact, [norm for norm in norms if norm not in CONTACT])
     on_contact = [norm for norm in norms if norm in CONTACT]
 

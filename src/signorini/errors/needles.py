@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.quadrature import interval_rule
+from signorini.fem.quadrature import interval_rule
 
 _ALONG, _ACROSS = interval_rule(7), interval_rule(5)  # the area of a box shrinks towards the tip: one degree more
 _RESOLUTION = 2.0**-48  # of coordinates: shorter boxes are round-off

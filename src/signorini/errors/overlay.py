@@ -8,10 +8,10 @@ through such a triangle, its two quarters. On each of its triangles both functio
 
 import numpy as np
 
-from signorini.elements import element as find_element
 from signorini.errors.projection import squared_l2
 from signorini.exceptions import MeshError
-from signorini.quadrature import triangle_rule
+from signorini.fem.elements import element as find_element
+from signorini.fem.quadrature import triangle_rule
 
 # Corners of the quarters of a cell (bottom, right, top, left), in units of the cell: (4, 3, 2), and their centroids.
 _RING = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

@@ -2,7 +2,7 @@
 
 Every triangle gets Radon's rule of degree 5, with seven points; near singular points it is cut into parts as in
 `errors.graded`, and so is every triangle of a coarse mesh. On a grid, all points of a line share a coordinate, and rows
-of cells that hold no such triangle need no coordinates of each: see `signorini.cells`.
+of cells that hold no such triangle need no coordinates of each: see `signorini.fem.grid_lines`.
 """
 
 from dataclasses import replace
@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.blocks import blocks
-from signorini.cells import points_on_lines, weighted
+from signorini.chunks import blocks
 from signorini.errors.graded import NEAR, PARTS, graded, near_singular, square, times_to_cut
 from signorini.errors.projection import prolong
-from signorini.mesh import Grid
+from signorini.fem.grid_lines import points_on_lines, weighted
+from signorini.mesh.grid import Grid
 
 _ROOT = np.sqrt(15.0)
 # Radon (1948): the centroid and two orbits of three points (1 - 2s, s, s), exact for polynomials up to degree 5.

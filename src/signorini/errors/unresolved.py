@@ -7,8 +7,8 @@ constants for its gradient and for the contact force.
 import numpy as np
 
 from signorini.errors.graded import root, scaled_weight, square
-from signorini.exact.sides import find_side
-from signorini.quadrature import interval_rule, triangle_rule
+from signorini.exact.boundary_trace import find_side
+from signorini.fem.quadrature import interval_rule, triangle_rule
 
 _DEGREE = 4  # the fit of a parabola is exact
 _TRIANGLES_AT_ONCE = 2**13

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.exceptions import SceneError
-from signorini.quadrature import triangle_rule
+from signorini.fem.quadrature import triangle_rule
 
 _MOST = 2**9  # triangles followed, the worst ones
 _SPLITS, _MOST_PIECES = 50, 2**14  # of edges, in halves

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from signorini.exact.solution import Diffused, FormulaSolution
 from signorini.exceptions import FormulaError
+from signorini.fem.data import Data
 from signorini.formula import Formula
-from signorini.statement import Data
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from signorini.exact.solution import Diffused, FormulaSolution
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
-from signorini.schema import nearest
+from signorini.wording import nearest
 
 
 class Parameter(NamedTuple):

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.boundary import LABELS, SIDES, by_formula
-from signorini.exact.sides import find_side
+from signorini.exact.boundary_trace import find_side
+from signorini.fem.quadrature import triangle_rule
 from signorini.formula import Formula
+from signorini.mesh.boundary import LABELS, SIDES, by_formula
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.grid import Grid
 from signorini.mesh.labels import NamedMesh
 from signorini.mesh.patterns import perturbed
-from signorini.quadrature import triangle_rule
 
 FEWEST, MOST = 2**11, 2**15  # triangles; a line across a square meets some 60 of the fewest
 ON_SIDES = 2**12  # points on the facets of one label: four or more in any 1/1000 of them

@@ -20,7 +20,7 @@ def draw_contact_line(rows):
     Parameters
     ----------
     rows : sequence of mapping
-        What `signorini.contact_line.contact_rows` returns, of one or more solutions, as text or numbers.
+        What `signorini.fem.contact_line.contact_rows` returns, of one or more solutions, as text or numbers.
 
     Returns
     -------

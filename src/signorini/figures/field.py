@@ -45,7 +45,7 @@ def draw_field(field, title=""):
     Parameters
     ----------
     field : mapping of str to ndarray
-        What `signorini.field.field_of` returns.
+        What `signorini.report.field.field_of` returns.
     title : str, optional
         Plain text above the figure.
 

@@ -36,7 +36,7 @@ def draw_gallery(fields):
     Parameters
     ----------
     fields : sequence of (str, str, mapping)
-        Name and title of a scene, plain text, and what `signorini.field.field_of` returns.
+        Name and title of a scene, plain text, and what `signorini.report.field.field_of` returns.
 
     Returns
     -------

@@ -7,7 +7,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 
 from signorini.figures.style import ACCENT, BLACK, GREY, STYLE, TEXT_WIDTH, new_figure
-from signorini.tables import percent
+from signorini.report.tables import percent
 
 DIAGONALS = {
     "falling": "falling",

@@ -11,10 +11,10 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.boundary import LABELS, SIDES, by_formula
-from signorini.cell_counts import count_cells
 from signorini.exceptions import MeshError
 from signorini.memory import GRID, MESH, check_memory
+from signorini.mesh.boundary import LABELS, SIDES, by_formula
+from signorini.mesh.cell_counts import count_cells
 from signorini.mesh.grid import CORNERS, Grid
 from signorini.storage import read_npz, write_npz
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.boundary import SIDES
+from signorini.mesh.boundary import SIDES
 
 _CELLS_AT_ONCE = 2**15
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_triangulation
-from signorini.mesh.child import run_apart
 from signorini.mesh.labels import NamedMesh, labelled
+from signorini.mesh.sandbox import run_apart
 
 MAX_BYTES = 2**28
 _PLANE = 1e-12

@@ -6,11 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.boundary import LABELS, SIDES
 from signorini.exceptions import MeshError
+from signorini.mesh.boundary import LABELS, SIDES
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.triangulation import Triangulation
-from signorini.schema import listed
+from signorini.wording import listed
 
 _SHOWN = 5
 

@@ -10,9 +10,9 @@ from xml.parsers import expat
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.child import one_line
 from signorini.mesh.gmsh import physical_names, read_msh, version
 from signorini.mesh.inflate import HDF5, check_hdf5, counted_vtu, most
+from signorini.mesh.sandbox import one_line
 
 _XML = (".vtu", ".xdmf", ".xmf", ".xml")
 _WIDTHS = {"line": 2, "triangle": 3}

@@ -5,8 +5,8 @@ from functools import partial
 
 import numpy as np
 
-from signorini.boundary import SIDES
 from signorini.exceptions import MeshError
+from signorini.mesh.boundary import SIDES
 from signorini.mesh.check import check_resolution
 from signorini.mesh.grid import CORNERS
 from signorini.mesh.labels import NamedMesh

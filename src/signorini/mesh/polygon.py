@@ -7,9 +7,9 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_resolution, check_triangulation, coincident
-from signorini.mesh.child import run_apart
 from signorini.mesh.labels import NamedMesh
 from signorini.mesh.outline import outline_defect
+from signorini.mesh.sandbox import run_apart
 
 MAX_TRIANGLES = 2_000_000
 MAX_CORNERS = 10_000

@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.blocks import blocks
-from signorini.boundary import LABELS
+from signorini.chunks import blocks
 from signorini.exceptions import MeshError
+from signorini.mesh.boundary import LABELS
 from signorini.mesh.facets import middles, pair_keys, refined_facets, unique_facets
 from signorini.mesh.grid import Triangles
 

@@ -8,12 +8,12 @@ the body, holds it.
 
 import numpy as np
 
-from signorini.elements import element as find_element
 from signorini.exceptions import SolverError
-from signorini.solvers.count import count
+from signorini.fem.elements import element as find_element
+from signorini.fem.residual import EPS
 from signorini.solvers.hierarchy import causes
-from signorini.solvers.residual import EPS
 from signorini.solvers.solution import largest
+from signorini.work import count
 
 _LEAF = 8
 _SINGULAR = 1e-13  # of its diagonal entry: a pivot so small may show a loose part of the body

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.solvers.count import count
+from signorini.work import count
 
 PATIENCE = (5, 100, np.inf)  # exchanges of all, the worse half, or one, without fewer violations; measured
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return

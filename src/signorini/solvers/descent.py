@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from signorini.solvers.count import count
+from signorini.fem.residual import BELOW, EPS
 from signorini.solvers.found import ROUNDING
-from signorini.solvers.residual import BELOW, EPS
 from signorini.solvers.solution import largest
+from signorini.work import count
 
 DIGITS = 1e-8  # to which a correction is worked out before the next residual
 _PATIENCE = 60  # steps without half the error before giving up

@@ -8,12 +8,12 @@ estimated, and the contact set is held against the forces and gaps that come out
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.fem.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
 from signorini.memory import DIRECT, check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.found import NO_DIGIT, SAFETY, Errors, Released, better, bound_of, proved, to_close, wrong_signs
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
-from signorini.solvers.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
 from signorini.solvers.solution import largest
 
 _MAX_STEPS = 100

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.solvers.residual import EPS
+from signorini.fem.residual import EPS
 from signorini.solvers.solution import SOLVED
 
 _TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves

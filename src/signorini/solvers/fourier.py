@@ -10,14 +10,14 @@ Buzbee, Golub and Nielson, On direct methods for solving Poisson's equations, SI
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.fem.residual import EPS
+from signorini.fem.stencil import apply_stiffness
 from signorini.solvers.contact import Exchange, solve_contact
-from signorini.solvers.count import count
 from signorini.solvers.found import Errors, better, proved, size_of, to_close, wrong_signs
-from signorini.solvers.residual import EPS
-from signorini.solvers.rows import Edges, Vertices, strip_of
+from signorini.solvers.line_elimination import Edges, Vertices, strip_of
 from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
-from signorini.stencil import apply_stiffness
+from signorini.work import count
 
 _MAX_STEPS = 100
 _CORRECTIONS = 5

@@ -11,10 +11,10 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.assembly import assemble_stiffness
-from signorini.elements import ELEMENTS
 from signorini.exceptions import MeshError
-from signorini.solvers.residual import residual, row_sums
+from signorini.fem.elements import ELEMENTS
+from signorini.fem.residual import residual, row_sums
+from signorini.fem.stiffness import assemble_stiffness
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
 STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured

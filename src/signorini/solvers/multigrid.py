@@ -16,10 +16,10 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import MULTIGRID, check_memory
-from signorini.solvers.count import counting
 from signorini.solvers.found import NO_DIGIT, Errors, better, to_close, wrong_signs
 from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
 from signorini.solvers.search import Search
+from signorini.work import counting
 
 _STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge; measured
 

@@ -5,13 +5,13 @@ import logging
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.contact import Exchange
-from signorini.solvers.count import count
 from signorini.solvers.descent import Descent, solved
 from signorini.solvers.found import SAFETY, Errors, Released, bound_of, proved
 from signorini.solvers.hierarchy import preconditioner
-from signorini.solvers.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.solution import largest
+from signorini.work import count
 
 _MAX_STEPS, _DESCENTS = 300, 30
 _ROUGH = 1e-12  # error, of what u varies, to which plain products do

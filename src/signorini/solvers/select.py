@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.fem.residual import EPS
 from signorini.memory import DIRECT, fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.found import NO_DIGIT, Found, size_of
-from signorini.solvers.residual import EPS
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from signorini.solvers.count import count
+from signorini.work import count
 
 # What a residual or an accuracy may be called, from the best name to the worst.
 SOLVED = 1e-10
@@ -156,7 +156,7 @@ def largest(values):
 
 
 def _diagonal(problem):
-    from signorini.stencil import diagonal
+    from signorini.fem.stencil import diagonal
 
     return problem.A.diagonal() if problem.grid is None else diagonal(problem.grid, problem.element)
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.solvers.contact import DenseContact
-from signorini.solvers.count import count
+from signorini.work import count
 
 _DENSE_UP_TO = 96
 _MAX_STEPS = 1000

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from signorini.macros import ESCAPES
+from signorini.report.macros import ESCAPES
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,77 @@
+"""The diffusion coefficient on a mesh: a formula taken at centroids, or a number for each subdomain of a mesh file."""
+
+import numpy as np
+
+from signorini.exceptions import FormulaError, MeshError
+from signorini.fem.data import COEFFICIENTS, BySubdomain
+from signorini.wording import nearest
+
+
+def coefficient_on(mesh, coefficient):
+    """The diffusion coefficient of each triangle of a mesh.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    coefficient : Formula or BySubdomain
+
+    Returns
+    -------
+    ndarray, shape (nt,), or None
+        None where it is 1 throughout.
+
+    Raises
+    ------
+    FormulaError
+        If the formula's value at a centroid is not one of `COEFFICIENTS`: positive, and not extreme.
+    MeshError
+        If the mesh has no subdomain of a name, or a triangle is in none that is named, or in two.
+    """
+    if isinstance(coefficient, BySubdomain):
+        values = _by_subdomain(mesh, coefficient)
+    elif coefficient.constant == 1.0:
+        return None
+    else:
+        values = _at_centroids(mesh, coefficient)
+    return None if np.all(values == 1.0) else values
+
+
+def _at_centroids(mesh, formula):
+    x, y = mesh.p[:, mesh.t].mean(axis=1)
+    values = formula(x, y)
+    low, high = COEFFICIENTS
+    wrong = (values < low) | (values > high)
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        raise FormulaError(
+            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be from {low:g} to "
+            f"{high:g}"
+        )
+    return values
+
+
+def _by_subdomain(mesh, coefficient):
+    known, field = getattr(mesh, "subdomains", {}), coefficient.field
+    values, times = np.zeros(mesh.number_of_triangles), np.zeros(mesh.number_of_triangles, dtype=int)
+    for name, number in coefficient.numbers.items():
+        if name not in known:
+            raise MeshError(f"{field}.{name[:60]}: the mesh has no such subdomain; {nearest(name, known or ['none'])}")
+        values[known[name]] = number
+        times[known[name]] += 1
+    for wrong, complaint in ((times == 0, _missing), (times > 1, _double)):
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            x, y = mesh.p[:, mesh.t[:, k]].mean(axis=1)
+            around = [name for name, members in known.items() if k in members]
+            raise MeshError(f"{field}: triangle {k} at ({x:.6g}, {y:.6g}) {complaint(coefficient, around)}")
+    return values
+
+
+def _missing(coefficient, around):
+    remedy = f"add a number for {' or '.join(around)}" if around else "put it into a group of the mesh file"
+    return f"has no coefficient; {remedy}"
+
+
+def _double(coefficient, around):
+    named = [name for name in around if name in coefficient.numbers]
+    return f"is in {' and '.join(named)} at once; name one of them"

@@ -1,0 +1,195 @@
+"""From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on contact dofs."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.exceptions import SceneError
+from signorini.fem.coefficient import coefficient_on
+from signorini.fem.elements import element as find_element
+from signorini.fem.load import assemble_load
+from signorini.fem.stencil import apply_stiffness, contact_fluxes
+from signorini.formula import Formula
+from signorini.mesh.grid import Grid
+
+_ROUNDING = 1e-10
+_COARSE = 2**15
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A discrete Signorini problem; equation (2.6) of the paper, or its conforming counterpart.
+
+    Parameters
+    ----------
+    element : {"P1", "CR"}
+    mesh : Grid or Triangulation
+    b : ndarray, shape (ndof,)
+        Load.
+    contact : ndarray of int, shape (nc,)
+        Degrees of freedom under the constraint, increasing.
+    lower : ndarray, shape (nc,)
+        The obstacle at them, unit of u.
+    fixed : ndarray of int, shape (nd,)
+        Degrees of freedom on the Dirichlet part, increasing.
+    fixed_values : ndarray, shape (nd,)
+        Their values, unit of u.
+    coefficient : ndarray, shape (nt,), optional
+        Diffusion coefficient of each triangle; None where it is 1 throughout.
+    """
+
+    element: str
+    mesh: object
+    b: np.ndarray
+    contact: np.ndarray
+    lower: np.ndarray
+    fixed: np.ndarray
+    fixed_values: np.ndarray
+    coefficient: np.ndarray | None = None
+
+    @cached_property
+    def A(self):
+        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when first asked for."""
+        from signorini.fem.stiffness import assemble_stiffness
+
+        return assemble_stiffness(self.mesh, find_element(self.element), self.coefficient)
+
+    @cached_property
+    def free(self):
+        """Degrees of freedom that are not fixed, increasing."""
+        mask = np.ones(self.b.size, dtype=bool)
+        mask[self.fixed] = False
+        return np.flatnonzero(mask)
+
+    @cached_property
+    def grid(self):
+        """The mesh where a stencil is the whole matrix: a uniform `Grid` with coefficient 1; else None."""
+        return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
+
+    def apply(self, u):
+        """A @ u, without the matrix where a stencil is the whole of it (`grid`)."""
+        if self.grid is not None:
+            return apply_stiffness(self.grid, self.element, u)
+        return self.A @ u
+
+    @property
+    def contact_points(self):
+        """Where the contact dofs are, shape (2, nc), unit of length: vertices for P1, midpoints of facets for CR."""
+        return find_element(self.element).nodes(self.mesh, self.contact)
+
+    def contact_fluxes(self, u):
+        """What flows into the contact dofs when the dofs are `u`.
+
+        Each is summed from differences of u, so that no entry of A hides it, however large.
+
+        Parameters
+        ----------
+        u : ndarray, shape (ndof,)
+
+        Returns
+        -------
+        force, fluxes, sizes : ndarray, shape (nc,)
+            (A u) at the contact dofs, the sum of the sizes of its differences, and (|A| |u|) there, what rounding of u
+            is relative to; unit of the load.
+        """
+        from signorini.fem.residual import residual_and_fluxes
+
+        if not self.contact.size:
+            return np.zeros((3, 0))
+        if self.grid is not None:
+            return contact_fluxes(self.grid, self.element, u, self.contact)
+        rows, nothing = self.A[self.contact], np.zeros(self.contact.size)
+        less, fluxes = residual_and_fluxes(rows, nothing, u, self.contact)
+        return -less, fluxes, abs(rows) @ np.abs(u)
+
+    @cached_property
+    def contact_lengths(self):
+        """The length of the contact part that each contact dof stands for, shape (nc,), unit of length.
+
+        For CR that of its facet, for P1 half of each contact facet that meets there.
+        """
+        return find_element(self.element).boundary_lengths(self.mesh, "contact")[self.contact]
+
+
+def discretize(scene, element, n):
+    """Discretise a scene.
+
+    Parameters
+    ----------
+    scene : Scene or ProblemStatement
+        What is asked; see `load_scene`.
+    element : {"P1", "CR"}
+    n : int
+        Level, n = 1/h.
+
+    Returns
+    -------
+    Problem
+
+    Raises
+    ------
+    SceneError, MeshError, FormulaError
+        Naming the field, its value and the remedy.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> scene = signorini.load_scene("config/scenes/paper.yaml")
+    >>> problem = signorini.discretize(scene, "CR", 8)
+    >>> problem.contact.size
+    8
+    """
+    statement = getattr(scene, "problem", scene)
+    find_element(element)
+    if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
+        raise SceneError(f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8")
+    statement.check()
+    return discretize_on(statement.triangulations.level(int(n)), element, statement)
+
+
+def discretize_on(mesh, element, statement):
+    """Discretise a problem statement on a given triangulation, whatever its own domain says; see `discretize`.
+
+    The mesh's labels hold; of the statement, the data and the load quadrature alone are used, and nothing is checked
+    against an exact truth.
+    """
+    kind = find_element(element)
+    data = statement.data
+    _check_poles(mesh, data.f)
+    fixed = kind.boundary_dofs(mesh, "dirichlet")
+    contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
+    lower, fixed_values = data.obstacle(*kind.nodes(mesh, contact)), data.dirichlet(*kind.nodes(mesh, fixed))
+    _check_corners(mesh, data, max(np.max(np.abs(values), initial=0.0) for values in (lower, fixed_values)))
+    return Problem(
+        element=element,
+        mesh=mesh,
+        b=assemble_load(mesh, kind, data.f, data.g, statement.load_quadrature),
+        contact=contact,
+        lower=lower,
+        fixed=fixed,
+        fixed_values=fixed_values,
+        coefficient=coefficient_on(mesh, data.coefficient),
+    )
+
+
+def _check_poles(mesh, f):
+    """Evaluate f where quadrature may not, at vertices and edge midpoints of coarse meshes: poles tend to be there."""
+    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
+        f(*mesh.p)
+        a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
+        f(*(0.5 * (a + b)))
+
+
+def _check_corners(mesh, data, size):
+    """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K is empty."""
+    shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
+    x, y = mesh.points(shared)
+    obstacle, dirichlet = (formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet))
+    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
+    if above.any():
+        k = int(np.flatnonzero(above)[0])
+        raise SceneError(
+            f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet parts meet: obstacle "
+            f"{obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; lower the obstacle or raise dirichlet there"
+        )

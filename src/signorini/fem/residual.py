@@ -1,0 +1,92 @@
+"""The residual of a stiffness matrix by differences of u, and how far rounding can move it.
+
+Rows of a stiffness matrix sum to zero but for round-off, so that (A u)_i is the sum of the fluxes a_ij (u_j - u_i). A
+flux rounds relative to itself, not to a_ij u_i: what is left after refinement is near the last bit, and a force keeps
+its digits where entries of A are huge.
+"""
+
+import numpy as np
+
+from signorini.chunks import blocks
+from signorini.work import count
+
+EPS = np.finfo(float).eps
+BELOW = 1e-8 * EPS  # of what u varies: a stiff part feels what is far below the last bit
+_ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for zero
+_FLUX = 4.0  # roundings of a flux: the coupling, the difference, their product, and the sum of the row
+
+
+def residual(A, b, u, sums=None):
+    """b - A u; arguments and unit as in `residual_and_fluxes`."""
+    return _by_differences(A, b, u, None, sums, None)
+
+
+def residual_and_fluxes(A, b, u, rows=None, sums=None):
+    """b - A u, and for each row the sum of its fluxes' sizes, sum_j |a_ij (u_j - u_i)|.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (m, n)
+        A stiffness matrix, or those of its rows that `rows` names.
+    b : ndarray, shape (m,)
+    u : ndarray, shape (n,)
+    rows : ndarray of int, shape (m,), optional
+        The unknowns that the rows belong to; all of them, in order, where not given.
+    sums : ndarray, shape (m,), optional
+        ``row_sums(A)``, where it is known.
+
+    Returns
+    -------
+    residual, fluxes : ndarray, shape (m,)
+        Unit of b.
+    """
+    fluxes = np.zeros(b.size)
+    return _by_differences(A, b, u, rows, sums, fluxes), fluxes
+
+
+def row_sums(A):
+    """The sum of each row of a matrix, zero where it is no more than round-off; empty where all are. Shape (m,)."""
+    sums = np.zeros(A.shape[0])
+    for part, entries, starts in _parts(A):
+        data = A.data[entries]
+        sums[part], sizes = np.add.reduceat(data, starts), np.add.reduceat(np.abs(data), starts)
+        sums[part][np.abs(sums[part]) <= _ROUNDING * sizes] = 0.0
+    return sums if sums.any() else np.zeros(0)
+
+
+def _parts(A):
+    """Slices of rows, of their entries, and where among these each row starts."""
+    for part in blocks(A.shape[0]):
+        first = A.indptr[part.start : part.stop + 1]
+        yield part, slice(first[0], first[-1]), first[:-1] - first[0]
+
+
+def _by_differences(A, b, u, rows, sums, fluxes):
+    """b - A u; where asked for, the sums of the sizes of its terms go to `fluxes`."""
+    count(products=rows is None)
+    sums = row_sums(A) if sums is None else sums
+    found = b.copy()
+    for part, entries, starts in _parts(A):
+        own = u[part] if rows is None else u[rows[part]]
+        terms = u[A.indices[entries]]
+        terms -= np.repeat(own, np.diff(A.indptr[part.start : part.stop + 1]))
+        terms *= A.data[entries]
+        found[part] -= np.add.reduceat(terms, starts)
+        if sums.size:
+            found[part] -= sums[part] * own
+        if fluxes is not None:
+            fluxes[part] = np.add.reduceat(np.abs(terms, out=terms), starts)
+            if sums.size:
+                fluxes[part] += np.abs(sums[part] * own)
+    return found
+
+
+def rounding_of(b, fluxes):
+    """A bound of what rounding does to each row of `residual`, of the couplings to doubles included, shape (m,).
+
+    Parameters
+    ----------
+    b, fluxes : ndarray, shape (m,)
+        See `residual_and_fluxes`.
+    """
+    return EPS * (_FLUX * fluxes + np.abs(b))

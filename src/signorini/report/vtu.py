@@ -1,0 +1,79 @@
+"""Solutions for other programs: VTU files, which ParaView and meshio read."""
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from signorini.fem.elements import element as find_element
+from signorini.mesh.boundary import LABELS
+from signorini.storage import replacing
+
+_FACET_CORNERS = np.array([[0, 1, 0], [1, 2, 2]])  # of a triangle's facets in the order 01, 12, 02
+
+
+def write_vtu(path, mesh, solution):
+    """Write a solution as VTU: same solution, same bytes; never half a file.
+
+    Parameters
+    ----------
+    path : path-like
+        Target; replaced in one step if it exists.
+    mesh : Grid or Triangulation
+        The solution's.
+    solution : StoredSolution
+
+    Raises
+    ------
+    StorageError
+        If the file cannot be written; the old one is then as it was.
+
+    Notes
+    -----
+    Cells are the triangles, then the boundary facets as lines. Point data ``u``; for CR, which jumps across facets,
+    every triangle has points of its own. Cell data ``gradient`` (3 components, on a line that of the triangle behind
+    it) and ``label``: 0 on triangles, 1 on Dirichlet, 2 on contact, 3 on Neumann facets.
+    """
+    import meshio
+
+    values = find_element(solution.element).vertex_values(mesh, solution.u)
+    p, t, u = _continuous(mesh, values) if solution.element == "P1" else _broken(mesh, values)
+    facets = [mesh.boundary_facets(label) for label in LABELS]
+    labels = np.repeat(np.arange(1, len(LABELS) + 1), [f.size for f in facets])
+    owners, lines = _boundary(mesh, t, np.concatenate(facets))
+    gradient = np.zeros((mesh.number_of_triangles, 3))
+    gradient[:, :2] = mesh.gradients(values).T
+    content = meshio.Mesh(
+        np.append(p, np.zeros((1, p.shape[1])), axis=0).T,
+        [("triangle", t.T), ("line", lines.T)],
+        point_data={"u": u},
+        cell_data={"gradient": [gradient, gradient[owners]], "label": [np.zeros(len(gradient), labels.dtype), labels]},
+    )
+    with (
+        replacing(path, "wb") as stream,
+        tempfile.TemporaryDirectory(prefix=f".{Path(path).name}.", dir=Path(path).parent) as folder,
+    ):
+        part = Path(folder, "part.vtu")
+        meshio.write(part, content)
+        stream.write(part.read_bytes())
+
+
+def _continuous(mesh, values):
+    """Points, triangles and values at the points of a function that is continuous at the vertices."""
+    u = np.empty(mesh.number_of_vertices)
+    u[mesh.t] = values
+    return mesh.p, mesh.t, u
+
+
+def _broken(mesh, values):
+    """Points, triangles and values at the points, every triangle with three points of its own."""
+    t = np.arange(mesh.t.size).reshape(3, -1)
+    return mesh.p[:, mesh.t].reshape(2, -1), t, values.ravel()
+
+
+def _boundary(mesh, t, facets):
+    """The triangle behind each boundary facet, and the facet's end points numbered as in the triangles `t`."""
+    place = np.empty(mesh.number_of_facets, dtype=int)
+    place[mesh.t2f] = np.arange(mesh.t2f.size).reshape(3, -1)
+    local, owners = np.divmod(place[facets], mesh.number_of_triangles)
+    return owners, t[_FACET_CORNERS[:, local], owners]

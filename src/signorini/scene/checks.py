@@ -1,0 +1,201 @@
+"""What a schema cannot say of a scene: how its fields must fit together."""
+
+import math
+import sys
+from itertools import pairwise
+
+from signorini.errors.norms import CONTACT
+from signorini.exceptions import SceneError
+from signorini.formula import Formula
+from signorini.mesh.boundary import LABELS, SIDES, by_formula
+from signorini.mesh.cell_counts import count_cells
+from signorini.wording import nearest, shown
+
+_NESTED = ("falling", "rising")
+
+
+def check_document(document):
+    """Check a schema-valid document whose defaults are filled in.
+
+    Raises
+    ------
+    SceneError, FormulaError
+        Naming the field, its value and the remedy.
+    """
+    _DOMAIN_CHECKS[document["domain"]["kind"]](document["domain"])
+    _check_boundary(document["boundary"], _part_names(document["domain"]))
+    if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
+        raise SceneError("data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y")
+    _check_levels(document["levels"])
+    _check_truth(document)
+    _check_cells(document)
+    _check_outputs(document)
+
+
+def check_critical_points(document, exact):
+    """Refuse to measure distances from exact critical points that nobody has named.
+
+    Parameters
+    ----------
+    document : dict
+    exact : ExactSolution or None
+
+    Raises
+    ------
+    SceneError
+    """
+    if "critical_points" in document["norms"] and not exact.critical_points:
+        family = document["truth"].get("family")
+        remedy = (
+            f"the family {family} has none; drop critical_points from norms"
+            if family
+            else "list them in truth.critical_points, [[x, y], ...], or drop critical_points from norms"
+        )
+        raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
+
+
+def _check_rectangle(domain):
+    _check_finite("domain.origin", domain["origin"])
+    _check_finite("domain.size", domain["size"])
+    for side in domain["size"]:
+        if side <= 0:
+            raise SceneError(f"domain.size: {shown(side)} is not valid; it must be greater than 0")
+
+
+def _check_polygon(domain):
+    if "corners" not in domain:
+        raise SceneError("domain.corners: missing; list the corners of the polygon, [[x, y], ...]")
+    for k, corner in enumerate(domain["corners"]):
+        _check_finite(f"domain.corners.{k}", corner)
+    for k, hole in enumerate(domain["holes"]):
+        for corner in hole:
+            _check_finite(f"domain.holes.{k}", corner)
+    if "sides" in domain and len(domain["sides"]) != len(domain["corners"]):
+        raise SceneError(
+            f"domain.sides: {len(domain['sides'])} names for {len(domain['corners'])} corners; "
+            "name the side that starts at each corner"
+        )
+
+
+def _check_mesh_file(domain):
+    if "file" not in domain:
+        raise SceneError("domain.file: missing; name the mesh file, relative to the scene's folder")
+
+
+_DOMAIN_CHECKS = {"rectangle": _check_rectangle, "polygon": _check_polygon, "mesh": _check_mesh_file}
+
+
+def _check_finite(field, values):
+    for value in values:
+        if not abs(value) < math.inf or abs(value) > sys.float_info.max:
+            raise SceneError(f"{field}: {shown(value)} is not valid; it must be finite")
+
+
+def _part_names(domain):
+    """Names of the boundary's parts, or None where only the mesh file knows them."""
+    if domain["kind"] == "rectangle":
+        return SIDES
+    if domain["kind"] == "polygon":
+        sides = domain.get("sides") or [f"side-{k}" for k in range(len(domain["corners"]))]
+        return (*dict.fromkeys(sides), *(f"hole-{k}" for k in range(len(domain["holes"]))))
+    return None
+
+
+def _check_boundary(boundary, names):
+    if by_formula(boundary):
+        _check_boundary_formulas(boundary)
+        return
+    for name, label in boundary.items():
+        if names is not None and name not in names:
+            raise SceneError(f"boundary.{name}: unknown key, the domain has no such part; {nearest(name, names)}")
+        if label not in LABELS:
+            raise SceneError(f"boundary.{name}: {shown(label)} is not valid; {nearest(label, LABELS)}")
+    missing = [name for name in names or () if name not in boundary]
+    if missing:
+        raise SceneError(f"boundary.{missing[0]}: missing; add it with one of the labels {', '.join(LABELS)}")
+
+
+def _check_boundary_formulas(boundary):
+    rest = [label for label, text in boundary.items() if text == "rest"]
+    if any(name in LABELS and label in LABELS for name, label in boundary.items()):
+        name, label = next(item for item in boundary.items() if item[1] not in LABELS)
+        raise SceneError(
+            f"boundary.{name}: {shown(label)} is no label, but other values are; {nearest(label, LABELS)}; or, if "
+            "no part of the boundary has a label for its name, give every label a formula"
+        )
+    for label, text in boundary.items():
+        if label not in LABELS:
+            raise SceneError(
+                f"boundary.{label}: no label; either every key is one of {', '.join(LABELS)} and has a formula, "
+                "or every key names a part of the boundary"
+            )
+        if text != "rest":
+            Formula(text, f"boundary.{label}")
+    if len(rest) > 1:
+        raise SceneError(f"boundary: {' and '.join(rest)} are both rest; one label at most can take what is left")
+
+
+def _check_levels(levels):
+    if any(b <= a for a, b in pairwise(levels)):
+        raise SceneError(f"levels: {shown(levels)} is not increasing; list each level once, coarsest first")
+
+
+def _check_truth(document):
+    truth, domain, levels = document["truth"], document["domain"], document["levels"]
+    if truth["kind"] != "exact" and "f" not in document["data"]:
+        raise SceneError("data.f: missing; give the volume force, a number or a formula in x and y")
+    if truth["kind"] == "exact" and ("u" in truth) == ("family" in truth):
+        raise SceneError("truth: an exact truth needs either u, a formula, or family, a name")
+    if truth["kind"] == "reference":
+        _check_reference(levels, truth)
+        if domain["kind"] == "rectangle" and domain["diagonal"] not in _NESTED:
+            raise SceneError(
+                f"domain.diagonal: levels of {domain['diagonal']} diagonals do not nest in a reference; "
+                "use falling or rising, or an exact truth"
+            )
+        for key in ("grade", "perturb"):
+            if key in domain and domain["kind"] == "rectangle":
+                raise SceneError(f"domain.{key}: the levels do not nest in a reference; drop it, or use an exact truth")
+    if domain["kind"] != "rectangle":
+        for n in levels:
+            _check_power(n, levels[0], f"levels: {n} is no uniform refinement of the coarsest, {levels[0]}")
+
+
+def _check_reference(levels, truth):
+    if "n" not in truth:
+        raise SceneError("truth.n: missing; give the level of the reference, for instance 512")
+    if truth["n"] < levels[-1]:
+        raise SceneError(f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n")
+    for n in levels:
+        _check_power(truth["n"], n, f"levels: {n} does not nest in the reference, truth.n = {truth['n']}")
+
+
+def _check_power(fine, coarse, complaint):
+    ratio, rest = divmod(fine, coarse)
+    if rest or ratio & (ratio - 1):
+        near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
+        raise SceneError(f"{complaint}; the finer one must be {coarse} times a power of two, for instance {near}")
+
+
+def _check_cells(document):
+    """Every level and the reference must cut the sides of a rectangle into whole cells."""
+    domain, truth = document["domain"], document["truth"]
+    if domain["kind"] == "rectangle":
+        for n in [*document["levels"], *([truth["n"]] if truth["kind"] == "reference" else [])]:
+            count_cells(domain["size"], domain["cells"], n)
+
+
+def _check_outputs(document):
+    kind, outputs, norms = document["truth"]["kind"], document["outputs"], document["norms"]
+    for output in ("errors", "rates", "table"):
+        if output in outputs and kind == "none":
+            raise SceneError(f"outputs: {output} needs a truth to compare with; set truth.kind, or drop {output}")
+    for output in ("rates", "table"):
+        if output in outputs and len(document["levels"]) < 2:
+            raise SceneError(f"outputs: {output} needs two levels for a slope; add a level, or drop {output}")
+    contact_norms = [norm for norm in norms if norm in CONTACT]
+    if contact_norms and kind != "exact":
+        raise SceneError(f"norms: {contact_norms[0]} needs an exact truth; drop it, or set truth.kind to exact")
+    for norm in document.get("expect", {}).get("slopes", {}):
+        if norm not in norms:
+            raise SceneError(f"expect.slopes.{norm}: the norm is not computed; add it to norms")

@@ -1,0 +1,188 @@
+"""Rows of unknowns parallel to the contact side of a uniform grid: vertices for P1, diagonal edges for CR."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.mesh.boundary import SIDES
+from signorini.solvers import transforms
+
+_OPPOSITE = {"bottom": "top", "top": "bottom", "left": "right", "right": "left"}
+_BESIDE = {"bottom": ("left", "right"), "left": ("bottom", "top")}
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A grid turned so that its contact side lies at row 0; `along` runs on that side, `away` from it."""
+
+    side: str
+    kinds: dict
+    near: str
+    far: str
+    beside: str
+    along: int
+    away: int
+    k_along: float
+    k_away: float
+
+    def turn(self, rows):
+        """Turn an array of the grid (row 0 at the bottom) so that row 0 lies on the contact side; undone by `back`."""
+        rows = rows[:, ::-1].T if self.side == "right" else rows.T if self.side == "left" else rows
+        return rows[::-1] if self.side == "top" else rows
+
+    def back(self, rows):
+        """Undo `turn`."""
+        rows = rows[::-1] if self.side == "top" else rows
+        return rows.T[:, ::-1] if self.side == "right" else rows.T if self.side == "left" else rows
+
+
+def strip_of(grid):
+    """The grid as a `Strip`, or None where the two sides beside its contact side differ in kind."""
+    labels = dict(zip(SIDES, grid.labels, strict=True))
+    hx, hy = grid.spacing
+    for side in grid.sides("contact") or ("bottom", "left"):
+        vertical = side in ("left", "right")
+        beside = {labels[name] for name in _BESIDE["left" if vertical else "bottom"]}
+        if len(beside) == 1:
+            along, away = (grid.ny, grid.nx) if vertical else (grid.nx, grid.ny)
+            kx, ky = hy / hx, hx / hy
+            k = (ky, kx) if vertical else (kx, ky)
+            return Strip(side, labels, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k)
+    return None
+
+
+class Rows:
+    """Rows of unknowns, row 0 on or next to the contact side, coupled to the rows above and below alone.
+
+    Row j couples with row j - 1 by ``-k_away coupling[j]``; its diagonal is ``mass[j] k_along eigenvalue``, and k_away
+    times its couplings to both neighbours and `held`, a whole number.
+    """
+
+    def eliminate(self, rows):
+        """Eliminate from the far side, in place: rows[j] then holds what back substitution needs.
+
+        A pivot is its coupling to the next row and an excess, which is summed from positive terms alone: nothing
+        cancels, however stretched the cells.
+
+        Returns
+        -------
+        factors : ndarray, shape of `rows`
+            Back substitution is rows[j] += factors[j] rows[j - 1].
+        symbol : ndarray
+            What is left of the diagonal of row 0: the eigenvalues of S.
+        """
+        eigenvalues = self.strip.k_along * self.basis.eigenvalues
+        coupling, held = self.strip.k_away * self.coupling, self.strip.k_away * self.held
+        factors = np.empty_like(rows)
+        excess = self.mass[-1] * eigenvalues + held[-1]
+        for j in range(rows.shape[0] - 1, 0, -1):
+            pivot = coupling[j] + excess
+            np.divide(coupling[j], pivot, out=factors[j])
+            rows[j - 1] += factors[j] * rows[j]
+            rows[j] /= pivot
+            excess = self.mass[j - 1] * eigenvalues + (held[j - 1] + factors[j] * excess)
+        return factors, excess
+
+
+def _held(diagonal, coupling):
+    """What is left of each row's diagonal without the couplings to its neighbours, in units of k_away."""
+    held = diagonal.copy()
+    held[1:] -= coupling[1:]
+    held[:-1] -= coupling[1:]
+    return held
+
+
+class Vertices(Rows):
+    """P1: a row of vertices at a time."""
+
+    def __init__(self, grid, strip):
+        self.grid, self.strip = grid, strip
+        fixed_sides = strip.beside == "dirichlet"
+        self.basis = (transforms.vertex_sines if fixed_sides else transforms.vertex_cosines)(strip.along)
+        self.columns = slice(1, -1) if fixed_sides else slice(None)
+        self.rows = slice(int(strip.near == "dirichlet"), strip.away + int(strip.far != "dirichlet"))
+        self.mass = np.ones(strip.away + 1)
+        self.mass[[0, -1]] = 0.5
+        self.mass = self.mass[self.rows]
+        self.coupling = np.ones(self.mass.size)
+        self.held = _held(2.0 * self.mass, self.coupling)
+
+    def _shape(self):
+        return self.grid.ny + 1, self.grid.nx + 1
+
+    def reduce(self, load):
+        return np.array(self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C")
+
+    def extend(self, rows, load):
+        u = np.zeros(self._shape())
+        self.strip.turn(u)[self.rows, self.columns] = rows
+        return u.ravel()
+
+
+class Edges(Rows):
+    """CR: a row of diagonal edges at a time, and the edges of the contact side as row 0.
+
+    An edge parallel to an axis couples with the diagonal edges of its one or two cells alone; it is eliminated
+    exactly: half its load to each of two, all of it to one.
+    """
+
+    def __init__(self, grid, strip):
+        self.grid, self.strip = grid, strip
+        fixed_sides = strip.beside == "dirichlet"
+        self.basis = (transforms.midpoint_sines if fixed_sides else transforms.midpoint_cosines)(strip.along)
+        self.line = int(strip.near != "dirichlet")
+        end = {"dirichlet": 2.0, "contact": 2.0, "neumann": 0.0}
+        below, above = np.ones(strip.away), np.ones(strip.away)
+        below[0], above[-1] = 2.0, end[strip.far]
+        self.mass = np.ones(strip.away + self.line)
+        self.coupling = np.ones(self.mass.size)
+        if self.line:
+            self.mass[0] = 0.0
+            self.coupling[1] = 2.0
+        self.held = _held(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
+
+    def _shares(self, sides):
+        """What an edge hands to each of its cells, by rows (or columns) of edges that two sides end; none if held."""
+        held = [self.strip.kinds[side] == "dirichlet" or (side == self.strip.side and self.line) for side in sides]
+        shares = np.full((self.grid.nx if sides[0] == "left" else self.grid.ny) + 1, 0.5)
+        shares[[0, -1]] = np.where(held, 0.0, 1.0)
+        return shares
+
+    def _blocks(self, load):
+        """By blocks of rows of cells: the first and the one after the last, the load on their edges, their shares."""
+        along_y, along_x = self._shares(("bottom", "top"))[:, None], self._shares(("left", "right"))
+        for first, last in self.grid.row_blocks():
+            yield first, last, *self.grid.split_edges(load, first, last), along_y[first : last + 1], along_x
+
+    def reduce(self, load):
+        rows = np.empty((self.strip.away + self.line, self.strip.along))
+        cells = self.strip.back(rows[self.line :])
+        if self.line:
+            rows[0] = load[self.grid.side_facets(self.strip.side)]
+        for first, last, h, v, d, share_h, share_v in self._blocks(load):
+            h *= share_h
+            v *= share_v
+            cells[first:last] = d + h[:-1] + h[1:] + v[:, :-1] + v[:, 1:]
+        return rows
+
+    def extend(self, rows, load):
+        u = np.zeros_like(load)
+        cells = self.strip.back(rows[self.line :])
+        hx, hy = self.grid.spacing
+        k_h, k_v = hx / hy, hy / hx
+        for first, last, h, v, _, share_h, share_v in self._blocks(load):
+            d = cells[first:last]
+            h /= 2.0 * k_h
+            h[1:] += d
+            h[:-1] += d
+            if first > 0:
+                h[0] += cells[first - 1]
+            if last < self.grid.ny:
+                h[-1] = 0.0  # the next block's first row
+            v /= 2.0 * k_v
+            v[:, 1:] += d
+            v[:, :-1] += d
+            self.grid.add_edges(u, first, share_h * h, share_v * v, d)
+        if self.line:
+            u[self.grid.side_facets(self.strip.side)] = rows[0]
+        return u

@@ -1,0 +1,1 @@
+"""The benchmark: run time against error, and rivals on the same matrices."""

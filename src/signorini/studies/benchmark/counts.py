@@ -1,0 +1,85 @@
+"""What a solve does, in counts and bytes: a guard against slower code that no busy machine can fool."""
+
+import tracemalloc
+from dataclasses import asdict
+
+from signorini.exceptions import SolverError
+from signorini.fem.problem import discretize
+from signorini.solvers import METHODS, solve
+from signorini.studies.benchmark.columns import COUNTS
+from signorini.work import counting
+
+GUARDED = (*COUNTS, "bytes_per_unknown")
+ALLOWED = 0.1  # growth
+
+_UNKNOWNS = 10_000
+
+
+def counted_level(scene, element):
+    """The first level of a scene, by doubling its coarsest, that has at least 10,000 free unknowns, discretised."""
+    n = scene.levels[0]
+    while True:
+        problem = discretize(scene, element, n)
+        if problem.free.size >= _UNKNOWNS:
+            return n, problem
+        n *= 2
+
+
+def count_scene(scene, element):
+    """A row per route that applies: ``method``, ``n``, ``unknowns``, the counts, and the peak bytes per unknown.
+
+    The bytes are those that Python's allocators gave out during the solve, assembly included where a route needs the
+    matrix; what SuperLU allocates by itself is not among them.
+    """
+    n, problem = counted_level(scene, element)
+    coarse = discretize(scene, element, scene.levels[0])
+    rows = []
+    for method in METHODS:
+        try:
+            solve(coarse, method)  # imports
+        except SolverError:
+            continue
+        problem.__dict__.pop("A", None)
+        what = {"scene": scene.name, "element": element, "method": method, "n": n, "unknowns": problem.free.size}
+        rows.append(what | _count(problem, method))
+    return rows
+
+
+def _count(problem, method):
+    tracemalloc.start()
+    try:
+        with counting() as work:
+            solve(problem, method)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    return asdict(work) | {"bytes_per_unknown": round(peak / problem.free.size)}
+
+
+def changes(recorded, found):
+    """Compare rows of `count_scene` with recorded ones.
+
+    Returns
+    -------
+    grown, shrunk : list of str
+        Counts that are more than a tenth larger, or smaller, with both values; routes that are new or gone are among
+        the grown.
+    """
+    before = {_key(row): row for row in recorded}
+    after = {_key(row): row for row in found}
+    grown = [f"{' '.join(key)}: not in the record" for key in after if key not in before]
+    grown += [f"{' '.join(key)}: recorded, but the route no longer applies" for key in before if key not in after]
+    shrunk = []
+    for key in before.keys() & after.keys():
+        for name in GUARDED:
+            old, new = float(before[key][name]), float(after[key][name])
+            line = f"{' '.join(key)}: {name} {old:g} -> {new:g}"
+            if new > (1.0 + ALLOWED) * old:
+                grown.append(line)
+            elif new < (1.0 - ALLOWED) * old:
+                shrunk.append(line)
+    return sorted(grown), sorted(shrunk)
+
+
+def _key(row):
+    return row["scene"], row["element"], row["method"]

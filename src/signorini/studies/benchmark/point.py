@@ -1,0 +1,148 @@
+"""One measured point: a scene, an element, a level and a route, from the scene's statement to its solution."""
+
+import gc
+import os
+import resource
+import statistics
+import time
+from dataclasses import asdict, fields
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.fem.problem import Problem, discretize_on
+from signorini.mesh.domain import make_domain
+from signorini.solvers import solve
+from signorini.work import counting
+
+# What a level costs that has four times the unknowns of the one before: somewhat more than four times as much.
+_GROWTH = {"seconds": 5.0, "memory": 4.5}
+
+
+def measure(statement, element, n, method, repeats, warm_up):
+    """Measure one point in this process, which should be fresh: its peak memory is the process's own.
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    element : {"P1", "CR"}
+    n : int
+    method : str
+        A route of `signorini.solvers.METHODS`.
+    repeats : dict
+        ``least`` and ``most`` repeats, and the ``seconds`` after which no further one starts.
+    warm_up : int
+        The level of a first run, which is not counted; it imports what the route needs.
+
+    Returns
+    -------
+    row : dict
+        Those of `benchmark_columns.POINT` that follow from the measurement.
+    u : ndarray or None
+        The solution; None where the route does not apply, or fails: the row's status and note then say so.
+    """
+    load = os.getloadavg()[0]
+    try:
+        _run(statement, element, warm_up, method)
+        gc.collect()
+        before = memory_now()
+        runs, begun = [], time.perf_counter()
+        while len(runs) < repeats["least"] or (
+            len(runs) < repeats["most"] and time.perf_counter() - begun < repeats["seconds"]
+        ):
+            problem = solution = None
+            gc.collect()
+            seconds, work, problem, solution = _run(statement, element, n, method)
+            runs.append(seconds)
+    except SolverError as error:
+        return {"status": "skipped", "note": str(error), "load": load}, None
+    peak = memory_peak()
+    row = {"status": "measured", "dofs": problem.free.size, "repeats": len(runs), "peak": peak, "load": load}
+    row |= spread(runs) | {"memory": peak - before} | asdict(work)
+    return row | {"iterations": solution.iterations, "residual": solution.residual}, solution.u
+
+
+def _run(statement, element, n, method):
+    """Once from statement to solution; a domain is triangulated anew."""
+    start = time.perf_counter()
+    mesh = make_domain(statement.domain, statement.boundary, statement.coarsest).level(n)
+    meshed = time.perf_counter()
+    problem, matrix = _timed(discretize_on(mesh, element, statement))
+    discretised = time.perf_counter()
+    with counting() as work:
+        solution = solve(problem, method)
+    end = time.perf_counter()
+    seconds = {
+        "mesh": meshed - start,
+        "assembly": discretised - meshed + sum(matrix),
+        "solve": end - discretised - sum(matrix),
+        "total": end - start,
+    }
+    return seconds, work, problem, solution
+
+
+def _timed(problem):
+    """The same problem, and a list of the seconds that assembling its matrix took, whenever a route asks for it."""
+    seconds = []
+
+    class Timed(Problem):
+        @cached_property
+        def A(self):
+            start = time.perf_counter()
+            A = Problem.A.func(self)
+            seconds.append(time.perf_counter() - start)
+            return A
+
+    return Timed(**{field.name: getattr(problem, field.name) for field in fields(Problem)}), seconds
+
+
+def spread(runs):
+    """Median, least and largest of each time over the runs (dicts of seconds): `total`, `total_min`, `total_max`."""
+    row = {}
+    for name in runs[0]:
+        values = [run[name] for run in runs]
+        row |= {name: statistics.median(values), f"{name}_min": min(values), f"{name}_max": max(values)}
+    return row
+
+
+def why_not(before, limits):
+    """Say why a level is left out, from the row of the one before it (None for the first), or None if it is not.
+
+    `limits` are ``seconds`` of one run and ``megabytes``.
+    """
+    if before is None:
+        return None
+    if before["status"] != "measured":
+        return before["note"]
+    seconds = _GROWTH["seconds"] * float(before["total_min"])
+    megabytes = _GROWTH["memory"] * float(before["memory"]) / 1e6
+    if seconds > limits["seconds"]:
+        return f"about {seconds:.0f} s foreseen, the limit is {limits['seconds']:g} s"
+    if megabytes > limits["megabytes"]:
+        return f"about {megabytes:.0f} MB foreseen, the limit is {limits['megabytes']:g} MB"
+    return None
+
+
+def difference(u, other):
+    """Largest difference of two solutions over max |u|, dimensionless."""
+    return float(np.max(np.abs(u - other)) / (np.max(np.abs(u)) or 1.0))
+
+
+def memory_now():
+    """Resident bytes of this process."""
+    return _status("VmRSS") or memory_peak()
+
+
+def memory_peak():
+    """Largest resident bytes of this process so far; of this program alone where the system tells."""
+    return _status("VmHWM") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def _status(name):
+    path = Path("/proc/self/status")
+    if not path.is_file():
+        return None
+    values = dict(line.split(":", 1) for line in path.read_text().splitlines())
+    return int(values[name].split()[0]) * 1024

@@ -1,0 +1,1 @@
+"""The choices that the paper leaves unsaid, made otherwise: how far its numbers move."""

@@ -1,0 +1,115 @@
+"""Published numbers against computed ones."""
+
+import csv
+from decimal import Decimal
+from pathlib import Path
+
+import pytest
+
+from signorini.exceptions import SignoriniError
+from signorini.report.compare import compare, verdict
+
+ROOT = Path(__file__).parents[2]
+PUBLISHED = list(csv.DictReader((ROOT / "config/published/table_5_1.csv").read_text().splitlines()))
+
+
+def computed(shift="0"):
+    """Tables of errors and rates equal to the published numbers, the first one shifted by units of its last digit."""
+    errors, rates = {}, []
+    for k, row in enumerate(PUBLISHED):
+        value = str(Decimal(row["value"]) + (Decimal(shift) * Decimal(row["unit"]) if k == 0 else 0))
+        if row["quantity"] == "slope":
+            rates.append({"element": row["element"], "norm": row["norm"], "kind": "mean", "slope": value})
+            rates.append(rates[-1] | {"kind": "fit", "slope": "0"})
+        else:
+            key = row["element"], row["n"]
+            errors.setdefault(key, {"element": row["element"], "n": row["n"], "l2": "", "h1": ""})[row["norm"]] = value
+    return list(errors.values()), rates
+
+
+def test_there_are_24_errors_and_4_slopes():
+    assert sum(row["quantity"] == "error" for row in PUBLISHED) == 24
+    assert sum(row["quantity"] == "slope" for row in PUBLISHED) == 4
+
+
+def test_the_published_numbers_are_those_of_the_table():
+    """The file of the check and the printed table, entry by entry."""
+    printed = csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines())
+    for row in printed:
+        for norm in ("l2", "h1"):
+            for element, tag in (("P1", "cf"), ("CR", "ncf")):
+                (found,) = (r for r in PUBLISHED if (r["norm"], r["element"], r["n"]) == (norm, element, row["n"]))
+                assert found["value"] == row[f"{norm}_{tag}"]
+
+
+def test_numbers_that_are_met_are_counted():
+    rows = compare(PUBLISHED, *computed())
+    assert [row["ok"] for row in rows] == [1] * 28
+    assert {row["units"] for row in rows} == {"0.000"}
+    assert verdict(rows, "check.csv").startswith(
+        "all 28 published numbers met, 24 of 24 errors to the last printed digit"
+    )
+
+
+@pytest.mark.parametrize(
+    ("shift", "units", "ok", "exact"),
+    [
+        ("0.4", "0.400", 1, 24),
+        ("-0.5", "-0.500", 1, 24),
+        ("0.6", "0.600", 1, 23),
+        ("1", "1.000", 1, 23),
+        ("-1.01", "-1.010", 0, None),
+    ],
+)
+def test_distances_are_in_units_of_the_last_digit(shift, units, ok, exact):
+    rows = compare(PUBLISHED, *computed(shift))
+    assert (rows[0]["units"], rows[0]["ok"]) == (units, ok)
+    if ok:
+        assert f"{exact} of 24 errors" in verdict(rows, "check.csv")
+
+
+def test_the_largest_distance_is_named():
+    assert "largest distance 0.700 units of the last digit (l2 P1 n=2)" in verdict(
+        compare(PUBLISHED, *computed("0.7")), "check.csv"
+    )
+
+
+def test_a_number_that_is_missed_is_named_with_its_distance():
+    rows = compare(PUBLISHED, *computed("2.5"))
+    with pytest.raises(SignoriniError) as error:
+        verdict(rows, "results/check.csv")
+    assert str(error.value) == (
+        "results/check.csv: 1 of 28 published numbers not met: "
+        "l2 P1 n=2: published 0.10075495, computed 0.100754975, 2.500 units off"
+    )
+
+
+def test_a_table_read_from_a_file_gets_the_same_verdict():
+    """Where every entry is text."""
+    for shift in ("0.7", "2.5"):
+        rows = compare(PUBLISHED, *computed(shift))
+        as_text = [{key: str(value) for key, value in row.items()} for row in rows]
+        answers = []
+        for table in (rows, as_text):
+            try:
+                answers.append(verdict(table, "x"))
+            except SignoriniError as error:
+                answers.append(str(error))
+        assert answers[0] == answers[1]
+
+
+@pytest.mark.parametrize(
+    "drop",
+    [lambda errors, rates: (errors[1:], rates), lambda errors, rates: (errors, rates[2:])],
+    ids=["an error", "a slope"],
+)
+def test_a_number_that_was_not_computed_is_named(drop):
+    with pytest.raises(SignoriniError, match="was not computed; restore levels, elements and norms"):
+        compare(PUBLISHED, *drop(*computed()))
+
+
+def test_an_empty_field_was_not_computed():
+    errors, rates = computed()
+    errors[0]["h1"] = ""
+    with pytest.raises(SignoriniError, match="h1 P1 n=2 was not computed"):
+        compare(PUBLISHED, errors, rates)

@@ -1,0 +1,432 @@
+"""`solve`: what a solution satisfies whatever the route, how routes are chosen, what is refused."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from skfem import MeshTri
+
+from builders import DATA, PAPER, delaunay, energy, gap, grid, labelled, nodes, perturbed, statement
+from signorini.exceptions import SolverError
+from signorini.fem.elements import ELEMENTS
+from signorini.fem.problem import discretize, discretize_on
+from signorini.mesh.triangulation import Triangulation
+from signorini.solvers import METHODS, fourier, solve
+
+FLOATING = ("contact", "neumann", "neumann", "neumann")
+MESHES = {
+    "falling grid": lambda labels=PAPER: grid(8, labels=labels),
+    "rising grid": lambda labels=PAPER: grid(8, labels=labels, diagonal="rising"),
+    "delaunay": lambda labels=PAPER: delaunay(0, labels=labels),
+    "perturbed": lambda labels=PAPER: perturbed(6, labels=labels),
+}
+
+
+@pytest.fixture(params=ELEMENTS)
+def element(request):
+    return request.param
+
+
+@pytest.fixture(params=MESHES)
+def mesh_of(request):
+    return MESHES[request.param]
+
+
+@pytest.fixture
+def problem(mesh_of, element):
+    return discretize_on(mesh_of(), element, statement(**DATA))
+
+
+@pytest.fixture(params=METHODS)
+def method(request):
+    return request.param
+
+
+def with_data(problem, **change):
+    return replace(problem, **{name: change(getattr(problem, name)) for name, change in change.items()})
+
+
+def scaled(problem, power):
+    return replace(problem, **{k: np.ldexp(getattr(problem, k), power) for k in ("b", "lower", "fixed_values")})
+
+
+# What a solution is
+
+
+def test_no_admissible_function_has_less_energy(problem):
+    solution = solve(problem)
+    lowest, rng = energy(problem, solution.u), np.random.default_rng(0)
+    for size in (1e-4, 1e-2, 1.0):
+        for _ in range(20):
+            v = solution.u + size * rng.standard_normal(solution.u.size)
+            v[problem.fixed] = problem.fixed_values
+            v[problem.contact] = np.maximum(v[problem.contact], problem.lower)
+            assert energy(problem, v) > lowest
+
+
+def test_gap_and_force_exclude_each_other(problem):
+    solution = solve(problem)
+    distance = gap(problem, solution.u)
+    assert 0 < solution.active.sum() < solution.active.size
+    assert np.all(distance[solution.active] == 0)
+    assert np.all(distance >= 0)
+    assert np.all(solution.multiplier >= 0)
+    assert not np.any(distance * solution.multiplier > 0)
+
+
+def test_contact_carries_what_the_dirichlet_part_does_not(problem):
+    """The reactions and the contact force balance the load: test with the constant 1."""
+    solution = solve(problem)
+    reactions = (problem.A @ solution.u - problem.b)[problem.fixed]
+    assert problem.b.sum() + reactions.sum() + solution.multiplier.sum() == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("diagonal", ["falling", "rising"])
+def test_a_mirrored_body_has_the_mirrored_solution(element, diagonal):
+    """x -> 1 - x turns one diagonal into the other."""
+    other = {"falling": "rising", "rising": "falling"}[diagonal]
+    data = {name: text.replace("x", "(1 - x)") for name, text in DATA.items()}
+    plain = discretize_on(grid(8, 6, diagonal=diagonal), element, statement(**DATA))
+    mirrored = discretize_on(grid(8, 6, diagonal=other), element, statement(**data))
+    x, y = nodes(plain)
+    order = np.lexsort(np.round([1 - x, y], 12)), np.lexsort(np.round(nodes(mirrored), 12))
+    u, v = solve(plain).u[order[0]], solve(mirrored).u[order[1]]
+    np.testing.assert_allclose(u, v, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("turns", [1, 2, 3])
+def test_a_turned_body_has_the_turned_solution(element, turns):
+    """A quarter turn puts the contact on the next side; on a square it exchanges the diagonals."""
+    plain = discretize_on(grid(8), element, statement(**DATA))
+    back = {1: ("y", "(1 - x)"), 2: ("(1 - x)", "(1 - y)"), 3: ("(1 - y)", "x")}[turns]
+    data = {
+        name: text.replace("x", "X").replace("y", "Y").replace("X", back[0]).replace("Y", back[1])
+        for name, text in DATA.items()
+    }
+    labels = tuple(np.roll(PAPER, turns))
+    turned = discretize_on(
+        grid(8, labels=labels, diagonal="rising" if turns % 2 else "falling"), element, statement(**data)
+    )
+    x, y = nodes(plain)
+    for _ in range(turns):
+        x, y = 1 - y, x
+    order = np.lexsort(np.round([x, y], 12)), np.lexsort(np.round(nodes(turned), 12))
+    np.testing.assert_allclose(solve(plain).u[order[0]], solve(turned).u[order[1]], rtol=0, atol=1e-13)
+
+
+def test_renumbering_changes_nothing(element):
+    rng, mesh = np.random.default_rng(1), perturbed(6)
+    vertex = rng.permutation(mesh.number_of_vertices)
+    p = np.empty_like(mesh.p)
+    p[:, vertex] = mesh.p
+    other = labelled(MeshTri(p, rng.permutation(vertex[mesh.t], axis=1)))
+    problems = [discretize_on(m, element, statement(**DATA)) for m in (mesh, other)]
+    u, v = (solve(q).u[np.lexsort(np.round(nodes(q), 12))] for q in problems)
+    np.testing.assert_allclose(u, v, rtol=0, atol=1e-12 * np.abs(u).max())
+
+
+@pytest.mark.parametrize("power", [-900, -100, -1, 1, 100, 900])
+def test_powers_of_two_pass_through_unrounded(problem, power):
+    plain, other = solve(problem), solve(scaled(problem, power))
+    np.testing.assert_array_equal(other.u, np.ldexp(plain.u, power))
+    np.testing.assert_array_equal(other.multiplier, np.ldexp(plain.multiplier, power))
+    np.testing.assert_array_equal(other.active, plain.active)
+    assert (other.residual, other.iterations) == (plain.residual, plain.iterations)
+
+
+@pytest.mark.parametrize("power", [-900, 900])
+def test_powers_of_two_pass_through_conjugate_gradients(element, power):
+    """A contact line too long for a dense matrix."""
+    problem = discretize_on(grid(128, 2, size=(1.0, 0.1)), element, statement(f="9*sin(9*x) - 3"))
+    plain, other = solve(problem), solve(scaled(problem, power))
+    assert 0 < plain.active.sum() < plain.active.size
+    np.testing.assert_array_equal(other.u, np.ldexp(plain.u, power))
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e-3, 1e3, 1e9])
+def test_the_unit_of_length_does_not_matter(element, method, size):
+    """-Laplace u = f with x in other units: f by size**-2, g by size**-1, the contact force (per depth) as it is."""
+    data = {name: text.replace("x", f"(x/{size})").replace("y", f"(y/{size})") for name, text in DATA.items()}
+    data |= {"f": f"({data['f']})/{size}**2", "g": f"({data['g']})/{size}"}
+    plain = solve(discretize_on(grid(8), element, statement(**DATA)), method)
+    other = solve(discretize_on(grid(8, size=(size, size)), element, statement(**data)), method)
+    np.testing.assert_allclose(other.u, plain.u, rtol=0, atol=1e-12 * np.abs(plain.u).max())
+    np.testing.assert_allclose(other.multiplier, plain.multiplier, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("origin", [(1e4, 0.0), (0.0, -1e6), (1e6, 1e6)])
+def test_case_08_the_origin_does_not_matter(element, method, origin):
+    problem = discretize_on(grid(8), element, statement(**DATA))
+    moved = discretize_on(grid(8, origin=origin), element, statement())
+    moved = replace(moved, b=problem.b, lower=problem.lower, fixed_values=problem.fixed_values)
+    np.testing.assert_array_equal(moved.contact, problem.contact)
+    np.testing.assert_array_equal(solve(moved, method).u, solve(problem, method).u)
+
+
+# Exact answers
+
+
+@pytest.mark.parametrize("diagonal", ["falling", "rising"])
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 8, 16])
+@pytest.mark.parametrize("obstacle", [-1, 0, 0.25, 0.5, 0.75, 2])
+def test_a_constant_load_on_a_flat_obstacle(element, method, diagonal, n, obstacle):
+    """f = 1 (E5): the contact side lies at max(1/2, obstacle) and presses with max(0, obstacle - 1/2).
+
+    At 1/2 every contact dof is biactive, where the plain active set method cycles. P1's load is larger by h^2/12 at
+    one corner of the contact side and less by as much at the other, which is the most that can press there.
+    """
+    method = "direct" if n == 1 else method
+    problem = discretize_on(grid(n, diagonal=diagonal), element, statement(f=1, obstacle=obstacle))
+    solution = solve(problem, method)
+    rounding = 1 / (12 * n**2) if (element, obstacle) == ("P1", 0.5) else 1e-13
+    assert solution.multiplier.sum() == pytest.approx(max(0, obstacle - 0.5), abs=rounding)
+    assert np.all(solution.u[problem.contact] >= obstacle)
+    assert solution.status == "solved"
+    assert solution.iterations <= 10
+    if obstacle > 0.5:
+        assert solution.iterations <= 3
+        if element == "P1":
+            y = nodes(problem)[1]
+            np.testing.assert_allclose(solution.u, 0.5 * y * (1 - y) + obstacle * (1 - y), rtol=0, atol=1e-13)
+
+
+def test_nothing_gives_exactly_nothing(mesh_of, element):
+    solution = solve(discretize_on(mesh_of(), element, statement()))
+    assert not solution.u.any()
+    assert not solution.multiplier.any()
+    assert solution.residual == 0.0
+    assert solution.status == "solved"
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("value", [1, 0.1, -3e5])
+@pytest.mark.parametrize("obstacle", ["{} - 7", "{} - 1 - 0.001*x", "{} - where(x < 0.5, 0, 1)", "{}"])
+def test_a_constant_that_meets_every_condition_is_the_answer_itself(element, method, value, obstacle):
+    """Not with its own rounding, which would be of no size to be measured by."""
+    problem = discretize_on(grid(8), element, statement(dirichlet=value, obstacle=obstacle.format(value)))
+    solution = solve(problem, method)
+    assert np.all(solution.u == value)
+    assert not solution.multiplier.any()
+    assert (solution.status, solution.residual) == ("solved", 0.0)
+    assert (solution.accuracy, solution.multiplier_accuracy) == (0.0, 0.0)
+    touching = problem.lower == value
+    np.testing.assert_array_equal(solution.active, touching)
+    np.testing.assert_array_equal(solution.undecided, touching)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("n", [4, 32])
+def test_a_load_whose_square_is_no_double_beside_a_constant_is_refused_and_ends(element, method, n):
+    with pytest.raises(SolverError):
+        solve(discretize_on(grid(n), element, statement(dirichlet=0.1, f="-1e-300")), method)
+
+
+@pytest.mark.parametrize(("load", "binds"), [(-5, True), (5, False)])
+def test_full_and_empty_contact_sets_take_few_steps(mesh_of, element, load, binds):
+    solution = solve(discretize_on(mesh_of(), element, statement(f=load)))
+    assert np.all(solution.active == binds)
+    assert solution.iterations <= 3
+
+
+def test_an_obstacle_out_of_reach_is_no_obstacle(mesh_of, element):
+    data = DATA | {"obstacle": -100}
+    solution = solve(discretize_on(mesh_of(), element, statement(**data)))
+    without = solve(
+        discretize_on(
+            mesh_of(("neumann", "neumann", "dirichlet", "neumann")),
+            element,
+            statement(**data | {"g": f"where(y < 1e-9, 0, {DATA['g']})"}),
+        )
+    )
+    np.testing.assert_allclose(solution.u, without.u, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("labels", [FLOATING, ("contact", "neumann", "contact", "neumann"), ("contact",) * 4])
+def test_a_body_without_dirichlet_part_rests_on_the_obstacle(mesh_of, element, labels):
+    problem = discretize_on(mesh_of(labels), element, statement(f="x - 0.6", obstacle="0.05*sin(9*x + y)"))
+    solution = solve(problem)
+    assert solution.active.any()
+    assert solution.multiplier.sum() == pytest.approx(0.1, rel=1e-11)
+    assert solution.residual < 1e-12
+
+
+def test_a_guess_changes_no_answer(problem):
+    solution, rng = solve(problem), np.random.default_rng(0)
+    size = problem.contact.size
+    for guess in (solution.active, np.zeros(size, bool), np.ones(size, bool), rng.random(size) < 0.5):
+        again = solve(problem, guess=guess)
+        np.testing.assert_array_equal(again.active, solution.active)
+        np.testing.assert_allclose(again.u, solution.u, rtol=0, atol=1e-13)
+    assert solve(problem, guess=solution.active).iterations == 1
+
+
+def test_a_problem_is_left_as_it_was(problem):
+    before = {name: getattr(problem, name).copy() for name in ("b", "lower", "fixed_values", "contact", "fixed")}
+    solve(problem)
+    for name, values in before.items():
+        np.testing.assert_array_equal(getattr(problem, name), values)
+
+
+# Stretched cells
+
+
+@pytest.mark.parametrize("aspect", [1e-2, 1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize(
+    ("near", "beside", "far"),
+    [
+        ("neumann", "dirichlet", "neumann"),
+        ("contact", "dirichlet", "neumann"),
+        ("dirichlet", "neumann", "neumann"),
+        ("contact", "neumann", "dirichlet"),
+    ],
+)
+def test_stretched_cells_cost_the_fourier_route_no_digits(element, aspect, near, beside, far):
+    """Patch test u = 1 + x; held at the ends of a flat strip, the weak direction decides."""
+    flux = "where(x < 0.001, -1, where(x > 0.999, 1, 0))"
+    mesh = grid(8, labels=(near, beside, far, beside), size=(1.0, aspect))
+    problem = discretize_on(mesh, element, statement(dirichlet="1 + x", g=flux))
+    np.testing.assert_allclose(solve(problem, "fourier").u, 1 + nodes(problem)[0], rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("aspect", [1, 1e-2, 2**-7, 1e-3, 2**-10, 1e-4, 2**-16, 1e-5, 2**-20, 1e-6, 2**-27, 1e-8])
+@pytest.mark.parametrize("beside", ["contact", "dirichlet", "neumann"])
+@pytest.mark.parametrize("near", ["contact", "neumann"])
+def test_the_direct_route_never_calls_a_wrong_answer_solved(element, aspect, near, beside):
+    """The same patch test: the matrix rounds the weak direction away, or with powers of two its factors do.
+
+    No residual shows it (it stays below 1e-15); the accuracy does.
+    """
+    flux = "where(x < 0.001, -1, where(x > 0.999, 1, 0))"
+    mesh = grid(8, labels=(near, beside, "neumann", "dirichlet"), size=(1.0, aspect))
+    problem = discretize_on(mesh, element, statement(dirichlet="1 + x", g=flux, obstacle="where(x > 0.999, 2, 0)"))
+    try:
+        solution = solve(problem, "direct")
+    except SolverError:
+        assert aspect <= 2**-20
+        return
+    error = np.abs(solution.u - 1 - nodes(problem)[0]).max() / 2
+    assert error <= 4 * solution.accuracy
+    assert error <= 1e-9 or solution.status == "inaccurate"
+    if aspect >= 1e-2:
+        assert solution.status == "solved"
+
+
+# Which route
+
+
+CHOICES = {
+    "grid": (lambda: grid(4), {}, "fourier", "uniform grid, equal conditions beside the contact side"),
+    "no contact": (
+        lambda: grid(4, labels=("neumann", "neumann", "dirichlet", "neumann")),
+        {},
+        "fourier",
+        "no contact part: plain Poisson",
+    ),
+    "triangulation": (lambda: Triangulation.from_skfem(grid(4).skfem), {}, "direct", "the mesh is not a uniform grid"),
+    "unlike sides": (
+        lambda: grid(4, labels=("contact", "dirichlet", "dirichlet", "neumann")),
+        {},
+        "direct",
+        "the two sides beside the contact side differ in kind",
+    ),
+    "one cell": (lambda: grid(1), {}, "direct", "the grid is a single cell wide"),
+    "coefficient": (lambda: grid(4), {"coefficient": 2}, "direct", "the coefficient is not 1"),
+}
+
+
+@pytest.mark.parametrize("case", CHOICES)
+def test_auto_takes_the_cheapest_route_that_applies_and_says_why(element, case):
+    mesh, data, method, reason = CHOICES[case]
+    solution = solve(discretize_on(mesh(), element, statement(f=-1, **data)))
+    assert solution.method == method
+    assert reason in solution.reason
+
+
+def test_a_route_that_was_asked_for_is_taken(method):
+    solution = solve(discretize_on(grid(4), "P1", statement(f=-1)), method)
+    assert (solution.method, solution.reason) == (method, "asked for")
+
+
+def test_an_unknown_method_is_refused_with_the_known_ones():
+    with pytest.raises(SolverError, match="unknown method 'cg'; known: auto, fourier, direct"):
+        solve(discretize_on(grid(4), "P1", statement()), "cg")
+
+
+def test_a_route_that_does_not_apply_says_why():
+    with pytest.raises(SolverError, match="fourier does not apply, the mesh is not a uniform grid; use auto or direct"):
+        solve(discretize_on(delaunay(0), "P1", statement()), "fourier")
+
+
+def test_a_route_not_taken_is_not_imported(monkeypatch):
+    monkeypatch.delitem(sys.modules, "signorini.solvers.direct", raising=False)
+    solve(discretize_on(grid(4), "P1", statement(f=-1)))
+    assert "signorini.solvers.direct" not in sys.modules
+
+
+# What is refused
+
+
+@pytest.mark.parametrize("name", ["b", "lower", "fixed_values"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_data_that_are_not_finite_are_named(problem, method, name, value):
+    values = getattr(problem, name).copy()
+    values[1] = value
+    with pytest.raises(SolverError, match=rf"problem\.{name}: entry 1 is {value}; all data must be finite"):
+        solve(replace(problem, **{name: values}), method if problem.grid else "direct")
+
+
+@pytest.mark.parametrize(
+    ("labels", "data", "message"),
+    [
+        (FLOATING, {"f": "x - 0.5"}, "nonunique: no dirichlet part and int f"),
+        (FLOATING, {"f": "sin(2*pi*x)"}, "nonunique"),
+        (FLOATING, {"f": "-1", "g": "1/3"}, "nonunique"),
+        (FLOATING, {}, "nonunique"),
+        (FLOATING, {"f": "x - 0.49"}, "unbounded: no dirichlet part and int f"),
+        (FLOATING, {"g": "1e-300"}, "unbounded"),
+        (("contact",) * 4, {"f": "1"}, "unbounded"),
+        (("neumann",) * 4, {"f": "x - 0.5"}, "boundary: neither dirichlet nor contact anywhere"),
+        (("neumann",) * 4, {"f": "-1"}, "boundary: neither dirichlet nor contact anywhere"),
+    ],
+)
+def test_problems_without_a_solution_are_named(mesh_of, element, labels, data, message):
+    with pytest.raises(SolverError, match=message):
+        solve(discretize_on(mesh_of(labels), element, statement(labels, **data)))
+
+
+@pytest.mark.parametrize("n", [64, 256])
+def test_a_load_of_mean_zero_is_seen_through_rounding(element, n):
+    with pytest.raises(SolverError, match="nonunique"):
+        solve(discretize(statement(FLOATING, "centroid", f="2*pi*sin(2*pi*x)"), element, n))
+
+
+def test_a_guess_of_the_wrong_length_is_refused(problem):
+    with pytest.raises(SolverError, match="guess"):
+        solve(problem, guess=np.zeros(problem.contact.size + 1, dtype=bool))
+
+
+@pytest.mark.parametrize(("noise", "status"), [(1e-9, "inaccurate"), (1e-3, None)])
+def test_a_status_is_never_better_than_the_residual(monkeypatch, element, noise, status):
+    """A route whose answer is off by `noise`."""
+    problem = discretize_on(grid(4), element, statement(f=-1, dirichlet=1))
+
+    def noisy(problem, guess):
+        u, *rest = true(problem, guess)
+        return u + noise * np.random.default_rng(0).standard_normal(u.size), *rest
+
+    true = fourier.solve_fourier
+    monkeypatch.setattr(fourier, "solve_fourier", noisy)
+    if status:
+        solution = solve(problem)
+        assert solution.status == status
+        assert solution.residual > 1e-10
+    else:
+        with pytest.raises(SolverError, match=r"KKT residual .* is above 1e-6"):
+            solve(problem)
+
+
+def test_subnormal_data_are_warned_of():
+    problem = discretize_on(grid(4), "P1", statement(f="1e-310"))
+    with pytest.warns(UserWarning, match="subnormal"):
+        solve(problem)

@@ -1,0 +1,222 @@
+"""The benchmark's page, fragment and figures."""
+
+import json
+import re
+from collections import Counter
+
+import pytest
+
+from signorini.figures import benchmark as figures
+from signorini.figures.style import TEXT_WIDTH, save_figure
+from signorini.studies import texts
+from signorini.studies.benchmark.columns import COUNTS, STAGES, TIMES
+from signorini.studies.benchmark.report import FIGURES, Report
+from signorini.studies.benchmark.summary import series, summary
+
+ASKED = {
+    "scenes": {"paper": {"finest": 16, "reference": 128}, "corner": {"finest": 16}},
+    "limits": {"seconds": 3, "megabytes": 400},
+    "repeats": {"least": 3, "most": 9, "seconds": 1},
+    "rivals": {"levels": [8, 16], "seconds": 2},
+    "truths": {"paper": 32},
+}
+MACHINE = {
+    "processor": "Some_Chip 100%", "cores": 2, "memory": 8.0, "system": "Linux", "python": "3.11", "blas": "blas 1",
+    "threads": 1, "load": 0.25, "date": "2026-01-01 00:00 UTC", "versions": {"numpy": "2.4.6"},
+}  # fmt: skip
+
+
+def point(scene, element, method, n):
+    slow = {"fourier": 1e-6, "direct": 1e-5}[method] * {"P1": 1.0, "CR": 3.0}[element]
+    dofs = n * n * {"P1": 1, "CR": 3}[element]
+    row = {"scene": scene, "element": element, "method": method, "status": "measured", "note": "", "n": n, "h": 1 / n}
+    row |= {name: slow * n**2 / (3 if name in STAGES else 1) for name in TIMES}
+    row |= {f"{name}_min": 0.9 * row[name] for name in TIMES} | {f"{name}_max": 1.1 * row[name] for name in TIMES}
+    row |= {"dofs": dofs, "memory": 1e3 * dofs, "peak": 1e8, "difference": 1e-13, "iterations": 4}
+    return row | dict.fromkeys(COUNTS, 2) | {"l2": 1 / n**2, "h1_semi": 1 / n, "h1": 1 / n}
+
+
+def rival(name, n, ratio, status="solved", ours="fourier"):
+    row = {"scene": "paper", "element": "P1", "n": n, "rival": name, "status": status, "note": "", "claimed": 1}
+    row |= {"ours": ours, "auto": 1}
+    return row | {"ratio": ratio, "ratio_min": ratio and 0.9 * ratio, "ratio_max": ratio and 1.1 * ratio}
+
+
+POINTS = [
+    point(scene, element, method, n)
+    for scene in ("paper", "corner")
+    for element in ("P1", "CR")
+    for method in ("fourier", "direct")
+    for n in (2, 4, 8, 16)
+]
+POINTS[-1] |= {"status": "skipped", "note": "about 9 s foreseen"}
+RIVALS = [rival("fast", 8, 0.5), rival("slow", 8, 20.0), rival("slow", 16, 40.0, "failed")]
+RIVALS += [rival("gone", None, None, "absent", "") | {"note": "pip install gone"}]
+ERRORS = {"paper": [{"element": "P1", "n": n, "l2": 1 / n**2, "h1": 1 / n} for n in (2, 4)]}
+COARSE = {"paper": [{"element": "P1", "n": n, "l2": 1.01 / n**2, "h1": 1 / n} for n in (2, 4)]}
+SUMMARY = summary(POINTS, RIVALS, COARSE, ERRORS) | {"titles": {"fast": "Fast", "slow": "Slow & sure", "gone": "Gone"}}
+
+
+@pytest.fixture(scope="module")
+def report():
+    return Report(POINTS, RIVALS, json.loads(json.dumps(SUMMARY)), MACHINE, ASKED)
+
+
+@pytest.fixture(scope="module", params=["tex", "markdown"])
+def text(request, report):
+    return getattr(report, request.param)()
+
+
+def test_machine_versions_threads_and_load_are_told(text):
+    for words in ("Chip 100", "numpy 2.4.6", "one thread per process", "load average 0.25 at the start"):
+        assert words in text
+
+
+def test_limits_and_repeats_are_those_asked_for(text):
+    for words in ("3 to 9 runs", "3 s or 400 MB", "1/8, 1/16", "no more than 2 s"):
+        assert words in text
+
+
+def test_wins_and_losses_are_told_alike(text):
+    assert "ours was faster in 1, the rival in 1, and in 0 the ranges overlap" in text
+
+
+def test_an_absent_rival_comes_with_its_install_line(text):
+    assert "Not installed: Gone (pip install gone)." in text
+
+
+def test_what_a_coarse_reference_bends_is_told(text):
+    plain = text.replace(r"\,\%", " %")
+    assert "h = 1/32, bends the errors of its last level, h = 1/4, by P1 L2 +1.00 %, P1 H1 +0.00 %." in plain
+    assert "paper by P1 with h = 1/128" in text
+
+
+def test_the_caption_of_the_first_figure_names_the_machine_and_the_others_refer_to_it(report):
+    captions = re.findall(r"\\caption\{(.*)\}\\label", report.tex())
+    assert sum("load average 0.25" in caption for caption in captions) == 1
+    assert sum(r"as in Figure~\ref{fig:benchmark-error}" in caption for caption in captions) == len(captions) - 1
+    assert all(rf"\includegraphics{{benchmark_{name}.pdf}}" in report.tex() for name in FIGURES)
+
+
+def test_the_fragment_starts_with_its_section_and_is_balanced(report):
+    text = report.tex()
+    assert text.startswith(r"\section{Run time against error}")
+    assert text.count("{") == text.count("}")
+    begun, ended = (Counter(re.findall(rf"\\{word}{{(\w+)}}", text)) for word in ("begin", "end"))
+    assert begun == ended
+    assert r"Some\_Chip 100\%" in text
+    assert r"Slow \& sure" in text
+
+
+def test_the_page_shows_every_figure_and_every_table_is_square(report):
+    text = report.markdown()
+    assert all(f"](benchmark_{name}.png)" in text for name in FIGURES)
+    for block in re.findall(r"(?:^\|.*\|\n)+", text, re.M):
+        assert len({line.count("|") for line in block.splitlines()}) == 1
+
+
+def test_the_cheaper_element_is_named_with_its_factor(report):
+    rows = [row for row in report.reach_table().rows if len(row) > 1]
+    paper = next(row for row in rows if row[:2] == ["paper", "0.1"])
+    assert paper[-3:] == ["P1 3.0", "P1 3.0", ""]  # too little memory to tell
+    assert [row[1] for row in rows[:4]] == ["0.1", "0.01", "0.001", "0.0001"]
+    assert rows[3][2:6] == ["--", "", "--", "--"]
+
+
+def test_the_first_level_left_out_says_why(report):
+    assert report.skipped_table().rows == [["corner CR direct", "1/16", "about 9 s foreseen"]]
+
+
+def test_counts_and_growth_have_a_row_per_series(report):
+    assert len(report.counts_table().rows) == len(report.growth_table().rows) == 8
+    assert report.growth_table().rows[0][-2:] == ["1.00", "1.00"]
+
+
+def test_a_ratio_of_a_failed_rival_is_marked(report):
+    rows = report.ratio_table("fourier").rows
+    assert [row[:2] for row in rows] == [["paper P1", "1/8"], ["paper P1", "1/16"]]
+    assert rows[0][2:] == ["0.50 (0.45 to 0.55)", "20 (18 to 22)"]
+    assert rows[1][2:] == ["", "40 (36 to 44) *failed*"]
+
+
+# Words and numbers
+
+
+@pytest.mark.parametrize(
+    ("function", "value", "text"),
+    [
+        (texts.seconds, 2.345, "2.3 s"),
+        (texts.seconds, 0.9949, "995 ms"),
+        (texts.seconds, 0.00012, "120 us"),
+        (texts.thousands, 42, "42"),
+        (texts.thousands, 1234, "1.2 k"),
+        (texts.thousands, 12_600_000, "13 M"),
+        (texts.megabytes, 99_000, "<0.1"),
+        (texts.megabytes, 1_240_000, "1.2"),
+        (texts.factor, 0.05, "0.05"),
+        (texts.factor, 123.4, "123"),
+        (texts.tex, "2e-14 & -3 %", r"$2\times10^{-14}$ \& $-$3\,\%"),
+        (texts.tex, "1e+06, l-shape, 2026-11-22", "$10^{6}$, l-shape, 2026-11-22"),
+    ],
+)
+def test_how_it_is_written(function, value, text):
+    assert function(value) == text
+
+
+# Figures
+
+
+def drawn():
+    found = series(POINTS)
+    return {
+        "error": figures.draw_error(found),
+        "dofs": figures.draw_dofs(found),
+        "growth": figures.draw_growth(found, SUMMARY["growth"]),
+        "stages": figures.draw_stages(found),
+        "rivals": figures.draw_rivals(RIVALS, SUMMARY["titles"]),
+    }
+
+
+@pytest.fixture(scope="module")
+def figure():
+    return drawn()
+
+
+def test_every_figure_of_the_report_is_drawn_at_the_width_of_the_text(figure):
+    assert figure.keys() == FIGURES.keys()
+    assert {round(found.get_figwidth(), 6) for found in figure.values()} == {round(TEXT_WIDTH, 6)}
+    assert max(found.get_figheight() for found in figure.values()) < 235 / 25.4
+
+
+def test_every_point_of_the_error_figure_bears_its_level(figure):
+    axes = figure["error"].axes
+    assert [ax.get_title() for ax in axes] == ["paper", "paper", "corner", "corner"]
+    assert Counter(text.get_text() for text in axes[0].texts) == Counter({"2": 4, "4": 4, "8": 4, "16": 4})
+    assert Counter(text.get_text() for text in axes[2].texts)["16"] == 3
+
+
+def test_legends_of_growth_hold_the_exponents(figure):
+    labels = [text.get_text() for text in figure["growth"].axes[0].get_legend().get_texts()]
+    assert labels == ["P1 fourier 1.00", "P1 direct 1.00", "CR fourier 1.00", "CR direct 1.00"]
+
+
+def test_bars_of_the_stages_fill_the_total(figure):
+    bars = figure["stages"].axes[0].patches
+    assert len(bars) == 3 * 8
+    ends = Counter(round(bar.get_x() + bar.get_width(), 9) for bar in bars)
+    assert ends[1.0] == 8
+
+
+def test_a_failed_rival_is_hollow_and_an_absent_one_not_drawn(figure):
+    (axes,) = figure["rivals"].axes
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["Fast", "Slow & sure"]
+    fills = [line.get_markerfacecolor() for line in axes.lines if line.get_marker() == "o"]
+    assert fills == ["black", "black", "white"]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_same_numbers_same_bytes(figure, name, tmp_path):
+    again = drawn()[name]
+    for k, found in enumerate((figure[name], again)):
+        save_figure(found, tmp_path / f"{k}.pdf")
+    assert (tmp_path / "0.pdf").read_bytes() == (tmp_path / "1.pdf").read_bytes()

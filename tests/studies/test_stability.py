@@ -1,0 +1,296 @@
+"""The stability suite measures what it says: statuses, digits, success rates, claims."""
+
+import time
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from builders import DATA, delaunay, statement
+from signorini.errors.reference import ReferenceErrors
+from signorini.fem.elements import ELEMENTS
+from signorini.fem.problem import discretize
+from signorini.solvers import METHODS, solve
+from signorini.studies.rivals.timed import Arena
+from signorini.studies.stability import digits as stability_digits
+from signorini.studies.stability import proof as stability_proof
+from signorini.studies.stability import round_off as stability_floor
+from signorini.studies.stability import success as stability_success
+from signorini.studies.stability.bodies import FAMILIES
+from signorini.studies.stability.claims import claims
+from signorini.studies.stability.extended import judge
+from signorini.studies.stability.parts import digits_by_cell, error_pairs, shares, title, titles
+from signorini.studies.stability.problems import LOADS, instance
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_generated_problem_can_be_made_again(family, load):
+    for seed, element in enumerate(ELEMENTS):
+        one, other, next_one = (instance(family, load, element, k).problem for k in (seed, seed, seed + 2))
+        np.testing.assert_array_equal(one.b, other.b)
+        np.testing.assert_array_equal(one.lower, other.lower)
+        assert one.contact.size
+        assert one.b.size != next_one.b.size or not np.array_equal(one.b, next_one.b)
+
+
+def test_the_families_are_what_their_names_say():
+    def largest_angle(mesh):
+        a, b, c = (mesh.p[:, v] for v in mesh.t)
+        sides = [b - a, c - b, a - c]
+        pairs = [(sides[k - 1], sides[k]) for k in range(3)]
+        cosines = [-(s * t).sum(axis=0) / np.hypot(*s) / np.hypot(*t) for s, t in pairs]
+        return np.degrees(np.arccos(np.min(cosines)))
+
+    made = {family: [instance(family, "white", "P1", seed) for seed in range(25)] for family in FAMILIES}
+    assert all(largest_angle(i.problem.mesh) <= 90 + 1e-6 for i in made["right-angled"] + made["rising"])
+    assert all(largest_angle(i.problem.mesh) > 150 for i in made["needles"])
+    assert min(i.aspect for i in made["stretched"]) < 1e-5
+    assert max(i.aspect for i in made["stretched"]) > 1e-1
+    graded = [np.concatenate([np.diff(np.unique(axis)) for axis in i.problem.mesh.p]) for i in made["graded"]]
+    assert max(steps.max() / steps.min() for steps in graded) > 1e10
+    assert {family for family in FAMILIES if made[family][0].problem.coefficient is not None} == {
+        "inclusions",
+        "layers",
+        "oscillating",
+    }
+    stiff = [i.problem.coefficient for i in made["inclusions"] if i.problem.coefficient is not None]
+    assert max(values.max() for values in stiff) > 1e10
+    assert min(values.min() for values in stiff) < 1e-4
+    constant = [instance("delaunay", "constant", "P1", seed).problem for seed in range(25)]
+    assert max(np.abs(p.lower).max() / np.ptp(np.r_[p.lower, p.fixed_values]) for p in constant) > 1e9
+    scales = [np.abs(instance("delaunay", load, "P1", 0).problem.b).max() for load in ("tiny", "smooth", "huge")]
+    assert scales[0] < 1e-150 < 1e-10 < scales[1] < 1e10 < 1e150 < scales[2]
+
+
+def test_a_rival_without_end_is_ended():
+    arena = Arena(lambda seconds: time.sleep(seconds) or seconds, patience=1.0)
+    assert arena.ask(0.0) == 0.0
+    assert arena.ask(60.0) is None
+    assert arena.ask(0.1) == 0.1
+    arena.close()
+
+
+def rows(solver="ours", **values):
+    base = {"family": "needles", "load": "white", "element": "CR", "solver": solver, "claimed": 1, "residual": 1e-16}
+    base |= {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15}
+    base |= {"multiplier_accuracy": 1e-15, "multiplier_error": 1e-15, "wrong_side": 0, "undecided": 0, "needless": 0}
+    return (
+        base
+        | {
+            "limit": 1e-15,
+            "multiplier_limit": 1e-15,
+            "floor": 1e-15,
+            "multiplier_floor": 1e-15,
+            "rounded_residual": 1e-16,
+        }
+        | values
+    )
+
+
+def refused(solver="ours/direct", **values):
+    empty = dict.fromkeys(("accuracy", "multiplier_accuracy", "error", "multiplier_error", "wrong_side", "undecided"))
+    return rows(solver, claimed=0, status="refused", residual=np.inf, needless=None, **empty | values)
+
+
+def test_success_is_claimed_and_true():
+    found = [rows(), rows(residual=1e-8), rows(residual=1e-3), rows(claimed=0), rows(residual=np.inf, claimed=0)]
+    (row,) = stability_success.summary(found, time_limit=1.0)
+    assert (row["problems"], row["solved_1e-06"], row["solved_1e-09"]) == (5, 0.4, 0.2)
+    assert (row["wrong"], row["unclaimed"]) == (1, 1)
+    shift = stability_success.SHIFT
+    spent = np.exp(np.mean(np.log([0.01 + shift, *[1.0 + shift] * 4]))) - shift
+    assert row["seconds"] == pytest.approx(spent, rel=1e-12)
+
+
+def test_loads_of_another_size_are_left_out_of_the_ordinary():
+    (row,) = stability_success.summary([rows(), rows(load="tiny", residual=1.0)], time_limit=1.0)
+    assert (row["solved_1e-09"], row["ordinary_1e-09"]) == (0.5, 1.0)
+
+
+def test_a_status_better_than_the_error_is_wrong():
+    found = [
+        rows("ours/direct", error=2e-10),
+        rows("ours/direct"),
+        rows("ours/direct", error=np.nan),
+        rows("ours/direct", multiplier_error=2e-10),
+        rows("ours/direct", wrong_side=2),
+        rows("ours/direct", status="inaccurate", error=1e-4, accuracy=1e-3, limit=1e-4),
+        rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9, undecided=3, needless=1),
+        rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9),
+        refused(limit=1.0),
+        refused(limit=1e-4),
+    ]
+    (row,) = stability_proof.statuses(found)
+    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (10, 5, 4, 3, 1)
+    assert (row["refused"], row["unneeded"]) == (2, 2)
+    assert (row["wrong_side"], row["undecided"], row["needless"]) == (2, 3, 1)
+    assert row["solved_multiplier_error"] == 2e-10
+
+
+@pytest.mark.parametrize(
+    ("row", "right"),
+    [
+        (rows(), True),
+        (rows(residual=1e-8), False),
+        (rows(status="inaccurate", accuracy=1e-9), False),
+        (rows(status="inaccurate", accuracy=1e-9, limit=1e-12), True),
+        (rows(status="inaccurate", accuracy=1e-9, multiplier_limit=1e-12), False),
+        (rows(status="inaccurate", multiplier_accuracy=1e-9), False),
+        (rows(status="inaccurate", multiplier_accuracy=1e-9, multiplier_limit=1e-12), True),
+        (rows(status="inaccurate", accuracy=1e-9, limit=1e-12, residual=1e-8), False),
+        (rows(status="inaccurate", accuracy=1e-9, limit=1e-7, residual=1e-8, rounded_residual=1e-8), True),
+        (rows(status="inaccurate", accuracy=1e-9, limit=np.nan), False),
+        (refused(limit=1e-3), False),
+        (refused(limit=0.1), True),
+        (refused(limit=np.nan), False),
+    ],
+)
+def test_less_than_solved_is_right_only_where_double_precision_cannot(row, right):
+    assert stability_proof.answered(row) is right
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "error", "right"),
+    [
+        (1e-12, 1e-12, True),
+        (1e-13, 1e-12, True),
+        (0.9e-13, 1e-12, False),
+        (1e-9, 1e-12, True),
+        (1.1e-9, 1e-12, False),
+        (0.0, 0.0, True),
+        (0.0, 1e-17, False),
+        (1e-12, 0.0, True),
+        (1.1e-12, 0.0, False),
+        (1e-12, np.nan, False),
+        (np.nan, 1e-12, False),
+    ],
+)
+@pytest.mark.parametrize("which", ["", "multiplier_"])
+def test_an_estimate_is_within_a_tenth_and_a_thousand(which, accuracy, error, right):
+    row = rows("ours/direct", **{f"{which}accuracy": accuracy, f"{which}error": error})
+    assert stability_proof.estimated(row, which) is right
+    (found,) = stability_proof.estimates([row, refused()])
+    other = "multiplier_" if not which else ""
+    assert (found[f"{which}missed"], found[f"{other}missed"], found["answers"]) == (int(not right), 0, 1)
+
+
+def test_estimates_are_those_of_the_answers():
+    found = [rows("ours/direct", accuracy=a, error=e) for a, e in ((1e-9, 1e-10), (1e-9, 1e-9), (1e-9, 1e-8))]
+    (row,) = stability_proof.estimates(found)
+    assert (row["least"], row["median"], row["most"], row["missed"]) == pytest.approx((0.1, 1, 10, 0))
+    assert error_pairs(found)["u"][0] == (1e-10, 1e-9, True)
+
+
+def test_a_solve_is_held_against_the_judge():
+    """Forces a thousandth too large, and one contact dof on the wrong side, named undecided or not."""
+    problem = discretize(statement(**DATA), "P1", 8)
+    right, truth = solve(problem), judge(problem)
+    flipped = right.active.copy()
+    flipped[4] ^= True
+    for undecided in (np.arange(9) == 4, np.zeros(9, dtype=bool)):
+        lie = SimpleNamespace(
+            u=right.u + 1e-6 * np.ptp(right.u),
+            multiplier=1.001 * right.multiplier,
+            active=flipped,
+            undecided=undecided,
+            **{"status": "solved", "iterations": 1, "accuracy": 1e-12, "multiplier_accuracy": 1e-12},
+        )
+        row = stability_proof.proof(problem, lie, "", truth)
+        assert row["error"] == pytest.approx(1e-6, rel=1e-6)
+        assert row["multiplier_error"] == pytest.approx(1e-3, rel=1e-6)
+        assert row["wrong_side"] == 1 - undecided.sum() == 1 - row["needless"]
+        assert row["multiplier_floor"] >= row["floor"] == 4 * np.finfo(float).eps
+        assert row["rounded_residual"] <= 1e-15
+    row = stability_proof.proof(problem, None, "no digit: too stretched", truth)
+    assert (row["claimed"], row["status"], row["refused"]) == (False, "refused", "no digit: too stretched")
+
+
+def test_a_family_is_solved_by_every_route_that_applies():
+    found = stability_proof.proofs(instance("right-angled", "smooth", "P1", 0).problem)
+    assert [row["solver"] for row in found] == ["ours", "ours/fourier", "ours/direct", "ours/multigrid"]
+    assert all(row["error"] <= 1e-14 for row in found)
+    assert all(row["multiplier_error"] <= 1e-13 for row in found)
+    assert all(row["wrong_side"] == 0 for row in found)
+
+
+def test_a_claim_that_is_not_met_says_so():
+    extremes = {
+        "scaling": [{"power": 900, "different": 1}],
+        "sizes": [{"value": 1e9, "change": 1e-3}],
+        "offsets": [{"value": 1e4, "change": 1.0, "refused": ""}, {"value": 1e14, "change": None, "refused": "no"}],
+        "critical-points": [{"critical_points": 9, "residual": 1.0}],
+        "contact-sets": [{"active": 1, "expected": 0, "iterations": 1}],
+        "walk": [{"status": "refused"}, {"status": "solved", "difference": 1.0, "condition": 1.0}],
+    }
+    lie = rows(residual=1.0, error=1.0, multiplier_error=1.0)
+    found = claims([lie], [{"wrong": 1, "wrong_side": 1}], [{"digits": 10.9}], extremes)
+    assert len(found) == 15
+    assert not any(row["met"] for row in found)
+
+
+def test_digits_are_those_that_no_variant_changes():
+    key = {"element": "P1", "n": 2, "norm": "l2"}
+    found = [key | {"variant": "a", "value": 1 + 1e-9}, key | {"variant": "b", "value": 1 - 1e-7}]
+    (row,) = stability_digits.digits([key | {"value": 1.0}], found)
+    assert (row["digits_a"], row["digits_b"], row["digits"]) == pytest.approx((9, 7, 7), abs=1e-6)
+    (row,) = stability_digits.digits([key | {"value": 1.0}], [key | {"variant": "a", "value": 1.0}])
+    assert row["digits"] == pytest.approx(-np.log10(2.0**-52))
+
+
+def test_a_mesh_renumbered_is_the_same_mesh():
+    mesh = delaunay(3)
+    other, vertex, facet = stability_digits.renumber(mesh, np.random.default_rng(0))
+    np.testing.assert_array_equal(other.p[:, vertex], mesh.p)
+    np.testing.assert_array_equal(np.sort(other.facets[:, facet], axis=0), np.sort(vertex[mesh.facets], axis=0))
+    assert not np.array_equal(vertex, np.arange(vertex.size))
+    for label in ("dirichlet", "neumann", "contact"):
+        np.testing.assert_array_equal(np.sort(facet[mesh.boundary_facets(label)]), other.boundary_facets(label))
+
+
+@pytest.mark.parametrize("name", ["routes", "last-bit", "renumbered"])
+def test_variants_compute_the_same_table(name):
+    asked = {"elements": ["P1", "CR"], "levels": [2, 4], "norms": ["l2", "h1"], "truth": {"element": "P1", "n": 16}}
+    data = statement(load_quadrature="centroid", f="2*pi*sin(2*pi*x)")
+    base = stability_digits.variant("auto", data, asked, 1)
+    truth = discretize(data, "P1", 16)
+    coarse = discretize(data, "P1", 2)
+    error = ReferenceErrors(truth.mesh, "P1", solve(truth).u).of(coarse.mesh, "P1", solve(coarse).u)
+    assert base[0]["value"] == error["l2"]
+    found = stability_digits.variant(name, data, asked, 2)
+    assert len(found) == (len(METHODS) if name == "routes" else 2) * len(base)
+    assert min(row["digits"] for row in stability_digits.digits(base, found)) >= 11
+
+
+def test_growth_and_crossings_are_those_of_powers():
+    levels = [4, 8, 16, 32]
+    table = [{"element": "P1", "n": n, "condition": 3.0 * n**2} for n in levels]
+    assert stability_floor.growth(table, "condition")["P1"] == pytest.approx((2, 3))
+    errors = [
+        {"family": family, "element": "P1", "n": n, **dict.fromkeys(stability_floor.NORMS, value(n))}
+        for family, value in {"smooth": lambda n: n**-2.0, "patch": lambda n: 1e-16 * n}.items()
+        for n in levels
+    ]
+    for row in stability_floor.crossings(errors):
+        assert row["order"] == pytest.approx(2)
+        assert row["h"] == pytest.approx(1e-16 ** (1 / 3))
+
+
+def test_figures_show_shares_and_digits():
+    found = [rows(), rows("ours/direct", error=1e-9), rows("osqp", residual=1.0), rows("osqp", load="smooth")]
+    assert digits_by_cell(found)["CR", "needles", "white"] == pytest.approx((9, 1))
+    assert shares(found, "load")["osqp", "white"] == 0
+    assert shares(found, "family")["osqp", "needles"] == 0.5
+    assert list(titles(found)) == ["ours", "ours/direct", "osqp"]
+    assert [title(name) for name in ("ours", "ours/direct", "osqp")] == ["signorini", "signorini direct", "OSQP"]
+
+
+def test_a_floor_of_zero_has_neither_growth_nor_crossing():
+    errors = [
+        {"family": family, "element": "P1", "n": n, "l2": error * n**-2.0, "h1_semi": error / n}
+        for family, error in (("smooth", 1.0), ("patch", 0.0))
+        for n in (2, 4, 8, 16)
+    ]
+    for row in stability_floor.crossings(errors):
+        assert (row["floor"], row["floor_order"], row["h"]) == (0.0, None, None)
+    assert stability_floor.growth([{"element": "P1", "error": 0.0, "aspect": 1e-2}], "error", by="aspect") == {}

@@ -1,4 +1,5 @@
-"""Run `snakemake --lint` and fail on what it finds, but for its wish that every rule has a conda environment.
+"""Run `snakemake --lint` and fail on what it finds, but for its wish that every rule has a conda
+environment.
 
 This project has no environment manager: requirements.txt says what every rule needs.
 """
@@ -21,7 +22,9 @@ def findings(text):
 
 def main():
     """Print the findings."""
-    result = subprocess.run([sys.executable, "-m", "snakemake", "--lint"], capture_output=True, text=True)
+    result = subprocess.run(
+        [sys.executable, "-m", "snakemake", "--lint"], capture_output=True, text=True
+    )
     text = result.stdout + result.stderr
     if result.returncode and NOT_HERE not in text:
         sys.exit(text)

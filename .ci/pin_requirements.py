@@ -1,4 +1,5 @@
-"""Write requirements.txt anew: what pyproject.toml asks for, and all that this brings in, at the newest versions.
+"""Write requirements.txt anew: what pyproject.toml asks for, and all that this brings in, at the
+newest versions.
 
     make requirements PYTHON=python3.11
 
@@ -25,8 +26,13 @@ print(json.dumps({d.name: (d.version, d.requires or []) for d in distributions()
 
 
 def asked_for(project):
-    """The requirements of the project and of all its extras, without those that name the project itself."""
-    found = [*project["dependencies"], *(item for extra in project["optional-dependencies"].values() for item in extra)]
+    """The requirements of the project and of all its extras, without those that name the project
+    itself.
+    """
+    found = [
+        *project["dependencies"],
+        *(item for extra in project["optional-dependencies"].values() for item in extra),
+    ]
     return [item for item in found if key(item) != project["name"]]
 
 
@@ -41,15 +47,27 @@ def installed(requirements):
         venv.create(folder, with_pip=True)
         python = Path(folder, "bin", "python")
         subprocess.run([python, "-m", "pip", "install", "--quiet", *requirements], check=True)
-        listing = subprocess.run([python, "-c", LISTING], check=True, capture_output=True, text=True).stdout
-    return {name: found for name, found in json.loads(listing).items() if name not in ("pip", "setuptools")}
+        listing = subprocess.run(
+            [python, "-c", LISTING], check=True, capture_output=True, text=True
+        ).stdout
+    return {
+        name: found
+        for name, found in json.loads(listing).items()
+        if name not in ("pip", "setuptools")
+    }
 
 
 def marker(name, found):
-    """The condition under which another package requires this one, if every one that does has a condition."""
+    """The condition under which another package requires this one, if every one that does has a
+    condition.
+    """
     asking = [item for _, requires in found.values() for item in requires if key(item) == key(name)]
     conditions = {item.partition(";")[2].strip() for item in asking if "extra ==" not in item}
-    return " or ".join(f"({text})" for text in sorted(conditions)) if conditions and "" not in conditions else ""
+    return (
+        " or ".join(f"({text})" for text in sorted(conditions))
+        if conditions and "" not in conditions
+        else ""
+    )
 
 
 def main():
@@ -61,9 +79,13 @@ def main():
     pins = {True: [], False: []}
     for name in sorted(found, key=str.lower):
         condition = "" if key(name) in names else marker(name, found)
-        pins[key(name) in names].append(f"{name}=={found[name][0]}" + (f" ; {condition}" if condition else ""))
+        pins[key(name) in names].append(
+            f"{name}=={found[name][0]}" + (f" ; {condition}" if condition else "")
+        )
     lines = [
-        "# All that running, testing and linting need; resolved on Python {}.{}.".format(*sys.version_info),
+        "# All that running, testing and linting need; resolved on Python {}.{}.".format(
+            *sys.version_info
+        ),
         "# Written by `make requirements` from the lists in pyproject.toml.",
         "",
         "# asked for",

@@ -1,10 +1,11 @@
-"""Counts of work and bytes per unknown of every scene that ships, element and route, against those on record.
+"""Counts of work and bytes per unknown of every scene that ships, element and route, against those
+on record.
 
     python benchmarks/counts.py           # what has changed by more than a tenth
     python benchmarks/counts.py --write   # write tests/data/counts.csv anew
 
-`pytest` fails where a count has grown by more than a tenth. Where that is on purpose, or a count has fallen and should
-not rise again, write the record anew and commit it with the reason.
+`pytest` fails where a count has grown by more than a tenth. Where that is on purpose, or a count
+has fallen and should not rise again, write the record anew and commit it with the reason.
 """
 
 import argparse
@@ -25,8 +26,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--write", action="store_true")
     write = parser.parse_args().write
-    scenes = [signorini.load_scene(path) for path in sorted((ROOT / "config/scenes").glob("*.yaml"))]
-    found = [row for scene in scenes for element in scene.elements for row in count_scene(scene, element)]
+    scenes = [
+        signorini.load_scene(path) for path in sorted((ROOT / "config/scenes").glob("*.yaml"))
+    ]
+    found = [
+        row for scene in scenes for element in scene.elements for row in count_scene(scene, element)
+    ]
     grown, shrunk = changes(read_table(RECORD) if RECORD.is_file() else [], found)
     for title, lines in (("grown:", grown), ("shrunk:", shrunk)):
         print("\n  ".join([title, *(lines or ["none"])]))

@@ -1,9 +1,11 @@
-"""What an exact truth costs beside the solve: discretising and errors, in solves, of every exact scene that ships.
+"""What an exact truth costs beside the solve: discretising and errors, in solves, of every exact
+scene that ships.
 
     python benchmarks/exact.py [--sizes 8,512] [--elements P1,CR] [--repeats 7] [--before FOLDER]
 
-Processor time of one process on one thread; medians, each repeat doing everything once. With `--before`, the folder
-`src` of another version of this project, the two versions take turns, each in processes of its own.
+Processor time of one process on one thread; medians, each repeat doing everything once. With
+`--before`, the folder `src` of another version of this project, the two versions take turns, each
+in processes of its own.
 """
 
 import argparse
@@ -43,7 +45,11 @@ def run(source, path, element, n, repeats):
     """Seconds of each step in a process of its own, that uses the version in the folder `source`."""
     command = [sys.executable, __file__, "--child", str(path), element, str(n), str(repeats)]
     environment = os.environ | {"PYTHONPATH": str(source), "OMP_NUM_THREADS": "1"}
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout)
+    return json.loads(
+        subprocess.run(
+            command, check=True, stdout=subprocess.PIPE, text=True, env=environment
+        ).stdout
+    )
 
 
 def compare(sources, path, element, n, repeats, turns=3):
@@ -53,14 +59,20 @@ def compare(sources, path, element, n, repeats, turns=3):
         for seconds, source in zip(found, sources, strict=True):
             for step, values in run(source, path, element, n, repeats).items():
                 seconds[step] += values
-    return [{step: statistics.median(values) for step, values in seconds.items()} for seconds in found]
+    return [
+        {step: statistics.median(values) for step, values in seconds.items()} for seconds in found
+    ]
 
 
 def row(name, element, n, now, before=None):
-    """A line of the table: milliseconds now, the ratios to the solve, and how many times longer it took before."""
+    """A line of the table: milliseconds now, the ratios to the solve, and how many times longer it
+    took before.
+    """
     parts = [name, element, str(n), *(f"{1e3 * now[step]:.1f}" for step in STEPS)]
     parts += [f"{now[step] / now['solve']:.1f}" for step in ("discretise", "errors")]
-    parts += [f"{before[step] / now[step]:.1f}" for step in ("discretise", "errors")] if before else []
+    parts += (
+        [f"{before[step] / now[step]:.1f}" for step in ("discretise", "errors")] if before else []
+    )
     return f"| {' | '.join(parts)} |"
 
 
@@ -76,7 +88,14 @@ def main():
     parser.add_argument("--before", type=Path)
     arguments = parser.parse_args()
     sources = [ROOT / "src", *([arguments.before.resolve()] if arguments.before else [])]
-    titles = ["scene", "element", "n", *(f"{step}, ms" for step in STEPS), "discretise / solve", "errors / solve"]
+    titles = [
+        "scene",
+        "element",
+        "n",
+        *(f"{step}, ms" for step in STEPS),
+        "discretise / solve",
+        "errors / solve",
+    ]
     titles += ["discretise, before / now", "errors, before / now"] if arguments.before else []
     print(f"| {' | '.join(titles)} |\n| :--- | :--- |{' ---: |' * (len(titles) - 2)}")
     for path in sorted((ROOT / "config/scenes").glob("*.yaml")):
@@ -84,7 +103,15 @@ def main():
             continue
         for element in arguments.elements.split(","):
             for n in map(int, arguments.sizes.split(",")):
-                print(row(path.stem, element, n, *compare(sources, path, element, n, arguments.repeats)), flush=True)
+                print(
+                    row(
+                        path.stem,
+                        element,
+                        n,
+                        *compare(sources, path, element, n, arguments.repeats),
+                    ),
+                    flush=True,
+                )
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
-"""How time and memory grow with the number of unknowns: the paper's problem, discretised and solved, by each route.
+"""How time and memory grow with the number of unknowns: the paper's problem, discretised and
+solved, by each route.
 
-    python benchmarks/growth.py [--routes fourier,direct] [--elements P1,CR] [--sizes 128,256,512] [--repeats 3]
+    python benchmarks/growth.py [--routes fourier,direct] [--elements P1,CR] [--sizes 128,256,512]
+    [--repeats 3]
 
-Each size is a process of its own. It solves a small problem first, so that imports do not count; then it discretises
-and solves `repeats` times. The table lists the median of the seconds, and what the process needed at its peak beyond
-what it held before, in bytes per degree of freedom. The exponent is that of seconds in dofs: from the size before, and
-below from the smallest to the largest.
+Each size is a process of its own. It solves a small problem first, so that imports do not count;
+then it discretises and solves `repeats` times. The table lists the median of the seconds, and what
+the process needed at its peak beyond what it held before, in bytes per degree of freedom. The
+exponent is that of seconds in dofs: from the size before, and below from the smallest to the
+largest.
 """
 
 import argparse
@@ -48,7 +51,11 @@ def growth(route, element, sizes, repeats):
     rows = []
     for n in sizes:
         command = [sys.executable, __file__, "--child", route, element, str(n), str(repeats)]
-        rows.append(json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout))
+        rows.append(
+            json.loads(
+                subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+            )
+        )
         exponent = f"{slope(*rows[-2:]):9.2f}" if len(rows) > 1 else 9 * " "
         found = rows[-1]
         print(
@@ -58,7 +65,8 @@ def growth(route, element, sizes, repeats):
         )
     if len(rows) > 2:
         print(
-            f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: exponent {slope(rows[0], rows[-1]):.3f}", flush=True
+            f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: exponent {slope(rows[0], rows[-1]):.3f}",
+            flush=True,
         )
 
 

@@ -2,8 +2,9 @@
 
     python benchmarks/skips.py [--repeats 3]
 
-For each skip, two clean builds in a temporary copy of the project: of a scene that ships, and of the same scene asking
-for more or less, as the table says. Seconds are those of all processes of a build, Snakemake's included; medians.
+For each skip, two clean builds in a temporary copy of the project: of a scene that ships, and of
+the same scene asking for more or less, as the table says. Seconds are those of all processes of a
+build, Snakemake's included; medians.
 """
 
 import argparse
@@ -17,7 +18,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-LEFT_OUT = shutil.ignore_patterns("results", ".snakemake", ".venv", ".git", "__pycache__", ".*_cache")
+LEFT_OUT = shutil.ignore_patterns(
+    "results", ".snakemake", ".venv", ".git", "__pycache__", ".*_cache"
+)
 TRUTH = r"truth:.*?\n\n"
 REFERENCE = """truth: {kind: reference, n: 512}
 
@@ -28,10 +31,15 @@ data:
 """
 VOLUME = {r"norms: .*": "norms: [l2, h1_semi, h1]"}  # a reference has no trace norms
 
-# Skip -> a scene that ships, and two sets of edits (pattern, replacement): without the skip, and with it.
+# Skip -> a scene that ships, and two sets of edits (pattern, replacement): without the skip, and
+# with it.
 SKIPS = {
     "no reference where the truth is exact": ("corner", VOLUME | {TRUTH: REFERENCE}, VOLUME),
-    "L2 alone": ("paper", {r"\[errors, .*\]": "[errors]"}, {r"\[errors, .*\]": "[errors]", r"\[l2, h1\]": "[l2]"}),
+    "L2 alone": (
+        "paper",
+        {r"\[errors, .*\]": "[errors]"},
+        {r"\[errors, .*\]": "[errors]", r"\[l2, h1\]": "[l2]"},
+    ),
     "no figures": ("smooth", {}, {"$": "\noutputs: [errors, rates, table]\n"}),
     "one element": ("smooth", {}, {r"\[P1, CR\]": "[P1]"}),
     "no matrix on a uniform rectangle": ("obstacle", {"$": "\nsolver: {method: direct}\n"}, {}),
@@ -51,13 +59,19 @@ class Copy:
         """Run Snakemake: how many jobs it planned, its processor time, and what it printed."""
         command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(command, cwd=self.folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        done = subprocess.run(
+            command, cwd=self.folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
         if done.returncode:
             sys.exit(done.stdout)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         total = re.search(r"^total +(\d+)$", done.stdout, re.M)
         jobs = int(total[1]) - 1 if total else 0
-        return jobs, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, done.stdout
+        return (
+            jobs,
+            after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime,
+            done.stdout,
+        )
 
     def clean(self):
         """Forget all that was built."""
@@ -68,7 +82,9 @@ class Copy:
         """A scene that ships, edited, as the scene `asked`."""
         text = (ROOT / "config/scenes" / f"{name}.yaml").read_text(encoding="utf-8")
         for pattern, replacement in edits.items():
-            text, count = re.subn(pattern, replacement, text, count=1, flags=re.S if pattern == TRUTH else 0)
+            text, count = re.subn(
+                pattern, replacement, text, count=1, flags=re.S if pattern == TRUTH else 0
+            )
             if not count:
                 raise ValueError(f"{name}.yaml: {pattern} is not there")
         (self.folder / "config/scenes/asked.yaml").write_text(text, encoding="utf-8")
@@ -95,7 +111,12 @@ def meshes_shared(project):
     project.clean()
     scenes = len(list((project.folder / "config/scenes").glob("*.yaml")))
     files = sorted(
-        set(re.findall(r"results/meshes/\w+\.npz", project.run("--dry-run", "--quiet", "host", "--", "all_scenes")[2]))
+        set(
+            re.findall(
+                r"results/meshes/\w+\.npz",
+                project.run("--dry-run", "--quiet", "host", "--", "all_scenes")[2],
+            )
+        )
     )
     _, seconds, _ = project.run(*files)
     _, nothing, _ = project.run(*files)
@@ -108,11 +129,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3)
     repeats = parser.parse_args().repeats
-    print("| skip | scene | jobs without, with | seconds without, with | saved |\n| :--- | :--- | :--- | :--- | ---: |")
+    print(
+        "| skip | scene | jobs without, with | seconds without, with | saved |\n| :--- | :--- | :--- | :--- | ---: |"
+    )
     with tempfile.TemporaryDirectory() as folder:
         project = Copy(folder)
         measures = {
-            skip: (name, lambda name=name, less=less, more=more: [project.built(name, edits) for edits in (less, more)])
+            skip: (
+                name,
+                lambda name=name, less=less, more=more: [
+                    project.built(name, edits) for edits in (less, more)
+                ],
+            )
             for skip, (name, less, more) in SKIPS.items()
         }
         measures["levels that are there already"] = ("smooth", lambda: level_added(project))
@@ -122,7 +150,10 @@ def main():
             (jobs, _), (fewer, _) = runs[0]
             without, with_it = (statistics.median(run[k][1] for run in runs) for k in (0, 1))
             saved = f"{without - with_it:.1f} s, {100 * (1 - with_it / without):.0f} %"
-            print(f"| {skip} | {name} | {jobs}, {fewer} | {without:.1f}, {with_it:.1f} | {saved} |", flush=True)
+            print(
+                f"| {skip} | {name} | {jobs}, {fewer} | {without:.1f}, {with_it:.1f} | {saved} |",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

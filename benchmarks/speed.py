@@ -1,20 +1,22 @@
-"""How fast the paper's reference problem is solved (h = 1/512), by our routes and by others: all as ratios of one run.
+"""How fast the paper's reference problem is solved (h = 1/512), by our routes and by others: all as
+ratios of one run.
 
     python benchmarks/speed.py [--n 512] [--repeats 5] [--slow-repeats 3]
 
-Every measurement is a process of its own and counts the whole way, mesh, assembly and solve, without imports; processes
-take turns, and medians are printed with their ranges.
+Every measurement is a process of its own and counts the whole way, mesh, assembly and solve,
+without imports; processes take turns, and medians are printed with their ranges.
 
-baseline    what a scikit-fem user writes first: assembly by scikit-fem, an active set method, SciPy's spsolve per step
-superlu     our matrices, active set started from the coarser level's, SuperLU in symmetric mode per step
-pyamg       the same with conjugate gradients and PyAMG's Ruge-Stueben levels
-auto        `signorini.solve`: the fourier route, which builds neither mesh nor matrix
-multigrid   the same square as a general triangulation, refined from 4 by 4 cells, with the route forced
-rough       multigrid ended at the discretisation's own accuracy
-errors      the 12 evaluations of the paper's errors against the P1 solution
+baseline    what a scikit-fem user writes first: assembly by scikit-fem, an active set method,
+SciPy's spsolve per step superlu     our matrices, active set started from the coarser level's,
+SuperLU in symmetric mode per step pyamg       the same with conjugate gradients and PyAMG's
+Ruge-Stueben levels auto        `signorini.solve`: the fourier route, which builds neither mesh nor
+matrix multigrid   the same square as a general triangulation, refined from 4 by 4 cells, with the
+route forced rough       multigrid ended at the discretisation's own accuracy errors      the 12
+evaluations of the paper's errors against the P1 solution
 
-A work unit is one product `A @ x` with the finest level's matrix, timed in the same process. A solve's work units leave
-out mesh and matrices of all levels, which the seconds count; they include the KKT residual and the accuracy.
+A work unit is one product `A @ x` with the finest level's matrix, timed in the same process. A
+solve's work units leave out mesh and matrices of all levels, which the seconds count; they include
+the KKT residual and the accuracy.
 """
 
 import argparse
@@ -31,7 +33,9 @@ sys.path.insert(0, str(ROOT / "src"))
 SLOW = ("baseline", "superlu", "pyamg")
 RUNS = (*SLOW, "auto", "multigrid", "rough", "errors")
 WORK_UNITS = ("multigrid", "rough", "errors")
-DISCRETISATION = 4e-6  # relative L2 error of the P1 solution at h = 1/512, from Table 5.1 at second order
+DISCRETISATION = (
+    4e-6  # relative L2 error of the P1 solution at h = 1/512, from Table 5.1 at second order
+)
 
 
 def scene():
@@ -61,7 +65,9 @@ def run_baseline(element, n):
         kind = ElementTriP1() if element == "P1" else ElementTriCR()
         basis = Basis(mesh, kind, quadrature=(np.array([[1 / 3], [1 / 3]]), np.array([0.5])))
         A, b = laplace.assemble(basis), load.assemble(basis)
-        top, contact = (np.unique(basis.get_dofs(lambda x, y=y: x[1] == y).flatten()) for y in (1.0, 0.0))
+        top, contact = (
+            np.unique(basis.get_dofs(lambda x, y=y: x[1] == y).flatten()) for y in (1.0, 0.0)
+        )
         active = np.zeros(b.size, dtype=bool)
         for _ in range(50):
             held = np.union1d(top, np.flatnonzero(active))
@@ -79,7 +85,9 @@ def run_baseline(element, n):
 
 
 def run_nested(linear):
-    """An active set method on our matrices, each level started with the contact set of the one before."""
+    """An active set method on our matrices, each level started with the contact set of the one
+    before.
+    """
 
     def prepare(element, n):
         import numpy as np
@@ -124,7 +132,11 @@ def superlu(A):
     """Factorise a symmetric positive definite matrix."""
     from scipy.sparse.linalg import splu
 
-    settings = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+    settings = {
+        "permc_spec": "MMD_AT_PLUS_A",
+        "diag_pivot_thresh": 0.0,
+        "options": {"SymmetricMode": True},
+    }
     return splu(A.tocsc(), **settings).solve
 
 
@@ -167,7 +179,9 @@ def run_multigrid(tolerance=None):
         from signorini.solvers.multigrid import solve_multigrid
 
         statement = scene().problem
-        signorini.solve(discretize_on(refined_square(16), element, statement), "multigrid")  # imports
+        signorini.solve(
+            discretize_on(refined_square(16), element, statement), "multigrid"
+        )  # imports
 
         def work():
             start = time.perf_counter()
@@ -200,7 +214,9 @@ def run_errors(element, n):
     asked = scene()
     reference = signorini.discretize(asked, "P1", n)
     truth = signorini.solve(reference).u
-    problems = [signorini.discretize(asked, kind, k) for kind in asked.elements for k in asked.levels]
+    problems = [
+        signorini.discretize(asked, kind, k) for kind in asked.elements for k in asked.levels
+    ]
     solved = [(problem, signorini.solve(problem).u) for problem in problems]
 
     def work():
@@ -223,7 +239,9 @@ PREPARE = {
 
 
 def measure(run, element, n):
-    """Print seconds, peak megabytes, a value of the result, and for some the work units of the solve, as JSON."""
+    """Print seconds, peak megabytes, a value of the result, and for some the work units of the
+    solve, as JSON.
+    """
     work = PREPARE[run](element, n)
     start = time.perf_counter()
     value = work()
@@ -248,7 +266,12 @@ def product_seconds(A):
 
 def collect(n, repeats, slow_repeats):
     """All measurements, processes taking turns: (run, element) -> list of what `measure` prints."""
-    asked = [(run, element) for element in ("P1", "CR") for run in RUNS if (run, element) != ("errors", "CR")]
+    asked = [
+        (run, element)
+        for element in ("P1", "CR")
+        for run in RUNS
+        if (run, element) != ("errors", "CR")
+    ]
     found = {key: [] for key in asked}
     for turn in range(max(repeats, slow_repeats)):
         for run, element in asked:
@@ -269,14 +292,36 @@ def median(found, run, element, key="seconds"):
 def targets(found):
     """What was aimed for: text, measured, bound, and whether more is better."""
     for element, general in (("P1", 25), ("CR", 40)):
-        base, auto, multigrid = (median(found, run, element) for run in ("baseline", "auto", "multigrid"))
+        base, auto, multigrid = (
+            median(found, run, element) for run in ("baseline", "auto", "multigrid")
+        )
         other = min(median(found, run, element) for run in ("superlu", "pyamg"))
         yield f"{element} auto against baseline", base / auto, 200, True
         yield f"{element} auto against the faster of superlu and pyamg", other / auto, 20, True
-        yield f"{element} multigrid, general mesh, against baseline", base / multigrid, general, True
-        yield f"{element} multigrid against the faster of superlu and pyamg", other / multigrid, 2, True
-        yield f"{element} multigrid, work units of the solve", median(found, "multigrid", element, "units"), 250, False
-        yield f"{element} to discretisation accuracy, work units", median(found, "rough", element, "units"), 40, False
+        yield (
+            f"{element} multigrid, general mesh, against baseline",
+            base / multigrid,
+            general,
+            True,
+        )
+        yield (
+            f"{element} multigrid against the faster of superlu and pyamg",
+            other / multigrid,
+            2,
+            True,
+        )
+        yield (
+            f"{element} multigrid, work units of the solve",
+            median(found, "multigrid", element, "units"),
+            250,
+            False,
+        )
+        yield (
+            f"{element} to discretisation accuracy, work units",
+            median(found, "rough", element, "units"),
+            40,
+            False,
+        )
     yield "12 error evaluations, work units", median(found, "errors", "P1", "units"), 150, False
 
 
@@ -285,20 +330,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--n", type=int, default=512)
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--slow-repeats", type=int, default=3, help="of baseline, superlu and pyamg")
+    parser.add_argument(
+        "--slow-repeats", type=int, default=3, help="of baseline, superlu and pyamg"
+    )
     parser.add_argument("--child", nargs=2, metavar=("RUN", "ELEMENT"), help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.child:
         return measure(*arguments.child, arguments.n)
     found = collect(arguments.n, arguments.repeats, arguments.slow_repeats)
-    print(f"| h = 1/{arguments.n} | element | s, median (range) | baseline / this | peak MB | result |")
+    print(
+        f"| h = 1/{arguments.n} | element | s, median (range) | baseline / this | peak MB | result |"
+    )
     print("| :--- | :--- | ---: | ---: | ---: | ---: |")
     for (run, element), rows in found.items():
         seconds = [row["seconds"] for row in rows]
         ratio = median(found, "baseline", element) / statistics.median(seconds)
         peak = max(row["megabytes"] for row in rows)
         spread = f"{statistics.median(seconds):.3f} ({min(seconds):.3f} to {max(seconds):.3f})"
-        print(f"| {run} | {element} | {spread} | {ratio:.1f} | {peak:.0f} | {rows[0]['value']:.10g} |")
+        print(
+            f"| {run} | {element} | {spread} | {ratio:.1f} | {peak:.0f} | {rows[0]['value']:.10g} |"
+        )
     print("\n| aim | measured | bound | met |\n| :--- | ---: | ---: | :--- |")
     for text, value, bound, more in targets(found):
         met = "yes" if (value >= bound if more else value <= bound) else "no"

@@ -1,9 +1,11 @@
-"""How much a clean build costs, in runs with nothing to do: of the paper scene (the PDF apart), or of all scenes.
+"""How much a clean build costs, in runs with nothing to do: of the paper scene (the PDF apart), or
+of all scenes.
 
     python benchmarks/workflow.py [--repeats 5] [--all-scenes]
 
-Each repeat copies the project into a temporary folder, builds it there, and runs Snakemake again with nothing to do,
-so the two are compared under the same load of the machine. Medians and their range are printed.
+Each repeat copies the project into a temporary folder, builds it there, and runs Snakemake again
+with nothing to do, so the two are compared under the same load of the machine. Medians and their
+range are printed.
 """
 
 import argparse
@@ -18,7 +20,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 TARGETS = ["errors.csv", "rates.csv", "table_5_1.tex", "check.txt"]
 TARGETS += [f"figure_5_{k}.{ending}" for k in (1, 2, 3) for ending in ("pdf", "png")]
-LEFT_OUT = shutil.ignore_patterns("results", ".snakemake", ".venv", ".git", "__pycache__", ".*_cache")
+LEFT_OUT = shutil.ignore_patterns(
+    "results", ".snakemake", ".venv", ".git", "__pycache__", ".*_cache"
+)
 
 
 def seconds(folder, *arguments):
@@ -36,7 +40,9 @@ def main():
     parser.add_argument("--all-scenes", action="store_true")
     arguments = parser.parse_args()
     repeats = arguments.repeats
-    targets = ["all_scenes"] if arguments.all_scenes else [f"results/paper/{name}" for name in TARGETS]
+    targets = (
+        ["all_scenes"] if arguments.all_scenes else [f"results/paper/{name}" for name in TARGETS]
+    )
     clean, nothing = [], []
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder, "project")
@@ -48,8 +54,14 @@ def main():
             clean.append(seconds(project, *targets))
             nothing.append(seconds(project, *targets))
     ratios = [a / b for a, b in zip(clean, nothing, strict=True)]
-    for name, values in (("clean build, s", clean), ("nothing to do, s", nothing), ("ratio", ratios)):
-        print(f"{name:18} median {statistics.median(values):6.2f}   range {min(values):.2f} to {max(values):.2f}")
+    for name, values in (
+        ("clean build, s", clean),
+        ("nothing to do, s", nothing),
+        ("ratio", ratios),
+    ):
+        print(
+            f"{name:18} median {statistics.median(values):6.2f}   range {min(values):.2f} to {max(values):.2f}"
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Copy what the studies measured (pages, tables, pictures in results/studies) to docs/studies, where README.md links.
+"""Copy what the studies measured (pages, tables, pictures in results/studies) to docs/studies,
+where README.md links.
 
     python docs/keep_studies.py
 

@@ -1,4 +1,6 @@
-"""The keys of a JSON schema as a Markdown list, each with what it means, what it may be, and an example."""
+"""The keys of a JSON schema as a Markdown list, each with what it means, what it may be, and an
+example.
+"""
 
 import json
 
@@ -21,7 +23,8 @@ def key_list(schema, examples=()):
     schema : dict
         JSON schema of a YAML file.
     examples : collection of dict
-        Documents; a key's example is its value in the first one that has it, its default where none has.
+        Documents; a key's example is its value in the first one that has it, its default where none
+        has.
 
     Returns
     -------
@@ -63,7 +66,9 @@ def _line(path, part, root, required, examples):
         facts.append("required")
     elif "default" in part:
         facts.append(f"default `{_shown(part['default'])}`")
-    found = [value for value in (_found(document, path) for document in examples) if value is not None]
+    found = [
+        value for value in (_found(document, path) for document in examples) if value is not None
+    ]
     if not _properties(part, root) and (found or "default" in part):
         facts.append(f"example `{path[-1]}: {_shown(found[0] if found else part['default'])}`")
     return f"`{'.'.join(path)}`: {part.get('description', '').strip()}\\\n  {'; '.join(facts)}."
@@ -85,7 +90,11 @@ def _values(part, root):
 
 
 def _with_bounds(part):
-    bounds = [f"{word} {part[key]}" for key, word in (("minimum", "from"), ("maximum", "to")) if key in part]
+    bounds = [
+        f"{word} {part[key]}"
+        for key, word in (("minimum", "from"), ("maximum", "to"))
+        if key in part
+    ]
     names = part.get("type")
     kinds = [TYPES[name] for name in (names if isinstance(names, list) else [names])]
     return " ".join([_either(kinds), *bounds])

@@ -2,8 +2,9 @@
 
     python docs/update_readme.py [--check]
 
-A block from `<!-- name -->` to `<!-- end of name -->` is generated; the pictures are copies of built figures.
-Durations are those that `.ci/run` measured last, where it has run; a check lets them be off by a factor of two.
+A block from `<!-- name -->` to `<!-- end of name -->` is generated; the pictures are copies of
+built figures. Durations are those that `.ci/run` measured last, where it has run; a check lets them
+be off by a factor of two.
 """
 
 import argparse
@@ -53,16 +54,25 @@ def durations(measured):
 
 def about(seconds):
     """A duration in words: to 5 s below 90 s, else to a minute."""
-    return f"about {max(LEAST, 5 * round(seconds / 5))} s" if seconds < 90 else f"about {round(seconds / 60)} min"
+    return (
+        f"about {max(LEAST, 5 * round(seconds / 5))} s"
+        if seconds < 90
+        else f"about {round(seconds / 60)} min"
+    )
 
 
 def told(text):
     """The durations that a text tells, in seconds, in their order."""
-    return [int(number) * (60 if unit == "min" else 1) for number, unit in re.findall(r"about (\d+) (s|min)\b", text)]
+    return [
+        int(number) * (60 if unit == "min" else 1)
+        for number, unit in re.findall(r"about (\d+) (s|min)\b", text)
+    ]
 
 
 def durations_block(current, check):
-    """The block of durations: as it is where nothing was measured, or where a check finds it near enough."""
+    """The block of durations: as it is where nothing was measured, or where a check finds it near
+    enough.
+    """
     if not DURATIONS.is_file():
         return current
     with open(DURATIONS, encoding="utf-8", newline="") as stream:
@@ -82,15 +92,24 @@ def choices():
 
 def keys():
     """Blocks of config/README.md, from the schemas and the scenes."""
-    paths = sorted((ROOT / "config/scenes").glob("*.yaml"), key=lambda path: (path.stem != "paper", path.stem))
+    paths = sorted(
+        (ROOT / "config/scenes").glob("*.yaml"), key=lambda path: (path.stem != "paper", path.stem)
+    )
     scenes = {path.stem: load_yaml(path) for path in paths}
-    rows = "".join(f"| `{name}` | {document.get('title', '')} |\n" for name, document in scenes.items())
-    schema, config = load_yaml(ROOT / "workflow/schemas/config.schema.yaml"), load_yaml(ROOT / "config/config.yaml")
+    rows = "".join(
+        f"| `{name}` | {document.get('title', '')} |\n" for name, document in scenes.items()
+    )
+    schema, config = (
+        load_yaml(ROOT / "workflow/schemas/config.schema.yaml"),
+        load_yaml(ROOT / "config/config.yaml"),
+    )
     return {
         "scenes": "| scene | what it is |\n| :--- | :--- |\n" + rows,
         "families": families(),
         "keys of config.yaml": key_list(schema, [config]),
-        "keys of a scene": key_list(load_yaml(ROOT / "src/signorini/scene/schema.yaml"), scenes.values()),
+        "keys of a scene": key_list(
+            load_yaml(ROOT / "src/signorini/scene/schema.yaml"), scenes.values()
+        ),
     }
 
 
@@ -98,14 +117,21 @@ def families():
     """The named exact solutions and their parameters, as Markdown."""
     rows = []
     for name, found in FAMILIES.items():
-        parameters = ", ".join(f"`{key}` ({part.meaning}; {part.default:g})" for key, part in found.parameters.items())
+        parameters = ", ".join(
+            f"`{key}` ({part.meaning}; {part.default:g})" for key, part in found.parameters.items()
+        )
         rows.append(f"| `{name}` | {found.title} | {parameters} |\n")
-    return "| family | solution | parameters (meaning; default) |\n| :--- | :--- | :--- |\n" + "".join(rows)
+    return (
+        "| family | solution | parameters (meaning; default) |\n| :--- | :--- | :--- |\n"
+        + "".join(rows)
+    )
 
 
 def block(path, name):
     """The text of a block as it is; ValueError unless it is there."""
-    found = re.search(rf"<!-- {re.escape(name)} -->\n(.*?)<!-- end of", path.read_text(encoding="utf-8"), re.S)
+    found = re.search(
+        rf"<!-- {re.escape(name)} -->\n(.*?)<!-- end of", path.read_text(encoding="utf-8"), re.S
+    )
     if not found:
         raise ValueError(f"{path.name}: no block '<!-- {name} -->'")
     return found[1]
@@ -116,7 +142,9 @@ def filled(path, texts):
     text = path.read_text(encoding="utf-8")
     for name, block in texts.items():
         pattern = rf"(<!-- {re.escape(name)} -->\n).*?(<!-- end of {re.escape(name)} -->\n)"
-        text, count = re.subn(pattern, lambda found, block=block: found[1] + block + found[2], text, flags=re.S)
+        text, count = re.subn(
+            pattern, lambda found, block=block: found[1] + block + found[2], text, flags=re.S
+        )
         if count != 1:
             raise ValueError(f"{path.name}: {count} blocks '<!-- {name} -->', expected 1")
     return text.encode()
@@ -125,22 +153,35 @@ def filled(path, texts):
 def main():
     """Update the files, or name those that would change and fail."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="change nothing; fail if anything would change")
+    parser.add_argument(
+        "--check", action="store_true", help="change nothing; fail if anything would change"
+    )
     check = parser.parse_args().check
     try:
         measured = {"durations": durations_block(block(README, "durations"), check)}
-        wanted = {README: filled(README, results() | measured), CONFIG_README: filled(CONFIG_README, keys())}
+        wanted = {
+            README: filled(README, results() | measured),
+            CONFIG_README: filled(CONFIG_README, keys()),
+        }
         wanted |= {PICTURES / figure.name: figure.read_bytes() for figure in FIGURES}
     except FileNotFoundError as error:
         sys.exit(f"error: {error.filename} is missing; run `make readme`")
-    stale = [path for path, content in wanted.items() if not path.is_file() or path.read_bytes() != content]
+    stale = [
+        path
+        for path, content in wanted.items()
+        if not path.is_file() or path.read_bytes() != content
+    ]
     names = ", ".join(str(path.relative_to(ROOT)) for path in stale)
     if check and stale:
         sys.exit(f"error: not as the build and the schemas make them: {names}; run `make readme`")
     PICTURES.mkdir(exist_ok=True)
     for path in stale:
         path.write_bytes(wanted[path])
-    print(f"updated: {names}" if stale else "README.md, config/README.md and docs/pictures: up to date")
+    print(
+        f"updated: {names}"
+        if stale
+        else "README.md, config/README.md and docs/pictures: up to date"
+    )
 
 
 if __name__ == "__main__":

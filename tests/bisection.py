@@ -1,4 +1,5 @@
-"""Locally refined meshes by newest-vertex bisection (Mitchell 1991), as an adaptive code would hand them in.
+"""Locally refined meshes by newest-vertex bisection (Mitchell 1991), as an adaptive code would hand
+them in.
 
 >>> mesh = bisected(l_shape(), towards(corner), 20_000)
 """
@@ -17,16 +18,17 @@ def bisected(mesh, marked_of, target_vertices):
     mesh : Triangulation
         Where to start; each triangle's first bisection halves its longest edge.
     marked_of : callable
-        ``marked_of(p, t)`` says which triangles to refine, a mask of shape (nt,), of vertices `p` (2, nv) and triangles
-        `t` (3, nt). All three edges of a marked triangle are halved, others only where the mesh must stay conforming.
+        ``marked_of(p, t)`` says which triangles to refine, a mask of shape (nt,), of vertices `p`
+        (2, nv) and triangles `t` (3, nt). All three edges of a marked triangle are halved, others
+        only where the mesh must stay conforming.
     target_vertices : int
         Steps end when there are as many vertices, or when none is marked.
 
     Returns
     -------
     Triangulation
-        Without parent, its boundary labelled as that of `mesh`. Shapes stay bounded: by those of four similarity
-        classes for each triangle of `mesh`.
+        Without parent, its boundary labelled as that of `mesh`. Shapes stay bounded: by those of
+        four similarity classes for each triangle of `mesh`.
     """
     p, t, ends = mesh.p, _longest_first(mesh.p, mesh.t), mesh.ends
     while p.shape[1] < target_vertices:
@@ -40,21 +42,24 @@ def bisected(mesh, marked_of, target_vertices):
 def towards(distance, exponent=0.5):
     """Marks for `bisected` that make the size of a triangle proportional to distance**exponent.
 
-    ``distance(x, y)`` is that of a point from what to refine towards; exponent 0 gives uniform meshes, 1 those whose
-    cells shrink in proportion to the distance.
+    ``distance(x, y)`` is that of a point from what to refine towards; exponent 0 gives uniform
+    meshes, 1 those whose cells shrink in proportion to the distance.
     """
 
     def marked_of(p, t):
         a, b, c = p[:, t[0]], p[:, t[1]], p[:, t[2]]
         ab, ac = b - a, c - a
-        excess = np.abs(ab[0] * ac[1] - ab[1] * ac[0]) * distance(*((a + b + c) / 3)) ** (-2 * exponent)
+        excess = np.abs(ab[0] * ac[1] - ab[1] * ac[0]) * distance(*((a + b + c) / 3)) ** (
+            -2 * exponent
+        )
         return excess > 0.5 * excess.max()
 
     return marked_of
 
 
 def l_shape(n=2):
-    """The L-shaped body of the gallery, [0, 2]^2 without its upper right quarter, in cells of width 1/n.
+    """The L-shaped body of the gallery, [0, 2]^2 without its upper right quarter, in cells of width
+    1/n.
 
     Contact at the bottom, Dirichlet at the top and in the notch, Neumann at both other sides.
     """
@@ -79,7 +84,9 @@ def corner(x, y):
 
 
 def corner_and_side(x, y):
-    """Distance from the re-entrant corner of `l_shape` and from its contact side, whichever is nearer."""
+    """Distance from the re-entrant corner of `l_shape` and from its contact side, whichever is
+    nearer.
+    """
     return np.minimum(corner(x, y), y)
 
 
@@ -105,7 +112,9 @@ def _step(p, t, ends, marked):
 
 
 def _closed(t2f, marked, count):
-    """The facets to halve: those of marked triangles, and the first of every triangle that has one of them."""
+    """The facets to halve: those of marked triangles, and the first of every triangle that has one
+    of them.
+    """
     halved = np.zeros(count, dtype=bool)
     halved[t2f[:, marked]] = True
     while (late := halved[t2f].any(axis=0) & ~halved[t2f[0]]).any():
@@ -114,7 +123,9 @@ def _closed(t2f, marked, count):
 
 
 def _cut(t, middle, others):
-    """Bisect each triangle abc with a vertex amid ab (not -1) into cam and bcm; their own first edges are ca and bc."""
+    """Bisect each triangle abc with a vertex amid ab (not -1) into cam and bcm; their own first
+    edges are ca and bc.
+    """
     cut = middle >= 0
     (a, b, c), m = t[:, cut], middle[cut]
     later = np.concatenate([np.full(np.sum(~cut), -1), *others[:, cut]])

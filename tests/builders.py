@@ -10,10 +10,16 @@ from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 
-PAPER = ("contact", "neumann", "dirichlet", "neumann")  # what holds on the sides of Section 5, as in SIDES
+PAPER = (
+    "contact",
+    "neumann",
+    "dirichlet",
+    "neumann",
+)  # what holds on the sides of Section 5, as in SIDES
 UNIT = ((0.0, 0.0), (1.0, 1.0))
 
-# Formulas without symmetry, none of them zero anywhere for long; the contact set of DATA is neither empty nor full.
+# Formulas without symmetry, none of them zero anywhere for long; the contact set of DATA is neither
+# empty nor full.
 DATA = {
     "f": "6*sin(5*x + 2*y) + 3*cos(7*y) - 2",
     "g": "cos(3*x - y) - 0.8",
@@ -25,7 +31,8 @@ DATA = {
 def statement(labels=PAPER, load_quadrature="exact", domain=None, **data):
     return ProblemStatement.from_mapping(
         {
-            "domain": {"origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"} | (domain or {}),
+            "domain": {"origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"}
+            | (domain or {}),
             "boundary": dict(zip(SIDES, labels, strict=True)),
             "data": {"f": 0, "g": 0, "dirichlet": 0, "obstacle": 0} | data,
             "load_quadrature": load_quadrature,
@@ -38,7 +45,9 @@ def grid(nx, ny=None, labels=PAPER, diagonal="falling", origin=(0.0, 0.0), size=
 
 
 def labelled(mesh, labels=PAPER):
-    """The unit square's scikit-fem mesh as a `Triangulation`; a facet belongs to a side if both ends lie on it."""
+    """The unit square's scikit-fem mesh as a `Triangulation`; a facet belongs to a side if both
+    ends lie on it.
+    """
     x, y = mesh.p[:, mesh.facets]
     on_side = {"bottom": y == 0, "right": x == 1, "top": y == 1, "left": x == 0}
     names = {label: [] for label in labels}

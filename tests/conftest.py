@@ -1,10 +1,13 @@
-"""One thread for linear algebra, as in the jobs; where several workers share the tests, the long ones first."""
+"""One thread for linear algebra, as in the jobs; where several workers share the tests, the long
+ones first.
+"""
 
 import os
 
 import pytest
 
-# On small matrices more threads are no faster but for the clock, and with a worker on each core they wait for another.
+# On small matrices more threads are no faster but for the clock, and with a worker on each core
+# they wait for another.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 

@@ -41,7 +41,12 @@ def gmsh(p=SQUARE.p.T, t=SQUARE.t.T, lines=None, names=True, nodes=None):
             str(nodes or len(p)),
             *(f"{k + 1} {x!r} {y!r} 0" for k, (x, y) in enumerate(np.asarray(p).tolist())),
         ]
-        + ["$EndNodes", "$Elements", str(len(cells)), *(f"{k + 1} {cell}" for k, cell in enumerate(cells))]
+        + [
+            "$EndNodes",
+            "$Elements",
+            str(len(cells)),
+            *(f"{k + 1} {cell}" for k, cell in enumerate(cells)),
+        ]
         + ["$EndElements", ""]
     )
 
@@ -94,13 +99,21 @@ VTU = """<?xml version="1.0"?>{doctype}
 
 
 def vtu(points="0 0 0 1 0 0 0 1 0", doctype="", options="", format="ascii", appended=""):
-    return VTU.format(points=points, doctype=doctype, options=options, format=format, appended=appended)
+    return VTU.format(
+        points=points, doctype=doctype, options=options, format=format, appended=appended
+    )
 
 
 def refusal(path, groups=None):
-    """The message with which a file is refused, one line that starts with the file's name or the section."""
+    """The message with which a file is refused, one line that starts with the file's name or the
+    section.
+    """
     with pytest.raises(MeshError) as caught:
-        read_mesh(path, groups or {"bottom": "contact", "top": "dirichlet", "left": "neumann", "right": "neumann"})
+        read_mesh(
+            path,
+            groups
+            or {"bottom": "contact", "top": "dirichlet", "left": "neumann", "right": "neumann"},
+        )
     message = str(caught.value)
     assert message.startswith((f"{path.name}: ", "boundary: "))
     assert "\n" not in message

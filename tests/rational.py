@@ -1,4 +1,6 @@
-"""Small Signorini problems solved by rational numbers: without any rounding, and by trying every contact set."""
+"""Small Signorini problems solved by rational numbers: without any rounding, and by trying every
+contact set.
+"""
 
 from fractions import Fraction
 from itertools import product
@@ -42,13 +44,19 @@ def _matrix(problem):
     x, y = _coordinates(mesh)
     for triangle, vertices in enumerate(mesh.t.T):
         p = [(x[v], y[v]) for v in vertices]
-        edges = [(p[k - 1][0] - p[k - 2][0], p[k - 1][1] - p[k - 2][1]) for k in range(3)]  # opposite vertex k
+        edges = [
+            (p[k - 1][0] - p[k - 2][0], p[k - 1][1] - p[k - 2][1]) for k in range(3)
+        ]  # opposite vertex k
         area = abs(edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0]) / 2
-        factor = Fraction(1 if problem.coefficient is None else float(problem.coefficient[triangle])) / (4 * area)
+        factor = Fraction(
+            1 if problem.coefficient is None else float(problem.coefficient[triangle])
+        ) / (4 * area)
         places = dofs[:, triangle] if problem.element == "P1" else dofs[[1, 2, 0], triangle]
         factor *= 1 if problem.element == "P1" else 4
         for i, j in product(range(3), repeat=2):
-            A[places[i]][places[j]] += factor * (edges[i][0] * edges[j][0] + edges[i][1] * edges[j][1])
+            A[places[i]][places[j]] += factor * (
+                edges[i][0] * edges[j][0] + edges[i][1] * edges[j][1]
+            )
     return A
 
 
@@ -85,7 +93,9 @@ def _back(system, count, kept):
 
 
 def _contact(rows):
-    """The one w >= 0 with S w - q >= 0 and no product of the two, and where w = 0; rows are those of S and q."""
+    """The one w >= 0 with S w - q >= 0 and no product of the two, and where w = 0; rows are those
+    of S and q.
+    """
     size = len(rows)
     for active in product((False, True), repeat=size):
         free = [k for k in range(size) if not active[k]]

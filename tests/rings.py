@@ -1,4 +1,6 @@
-"""Bodies with a hole, and solutions on them that are made up, for what is seen along the contact line."""
+"""Bodies with a hole, and solutions on them that are made up, for what is seen along the contact
+line.
+"""
 
 from types import SimpleNamespace
 
@@ -8,7 +10,12 @@ from skfem import MeshTri
 from signorini.fem.elements import element as find_element
 from signorini.mesh.triangulation import Triangulation
 
-HELD = ("contact", "contact", "dirichlet", "contact")  # one part with two corners that ends at a Dirichlet side
+HELD = (
+    "contact",
+    "contact",
+    "dirichlet",
+    "contact",
+)  # one part with two corners that ends at a Dirichlet side
 
 
 def ring(labels=("contact", "dirichlet")):
@@ -19,11 +26,15 @@ def ring(labels=("contact", "dirichlet")):
     facets = mesh.boundary_facets()
     inner = np.abs(mesh.p[:, mesh.facets[:, facets]].mean(axis=1) - 0.5).max(axis=0) < 0.4
     label = np.where(inner, *labels)
-    return Triangulation.from_skfem(mesh.with_boundaries({name: facets[label == name] for name in set(labels)}))
+    return Triangulation.from_skfem(
+        mesh.with_boundaries({name: facets[label == name] for name in set(labels)})
+    )
 
 
 def solution(mesh, element, binds=lambda x, y: x + y > 0.7, u=lambda x, y: 1 + x - y * y):
-    """A stored solution that binds where it is told to, with a force of its own on each contact dof."""
+    """A stored solution that binds where it is told to, with a force of its own on each contact
+    dof.
+    """
     kind = find_element(element)
     fixed = kind.boundary_dofs(mesh, "dirichlet")
     contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed)
@@ -32,5 +43,11 @@ def solution(mesh, element, binds=lambda x, y: x + y > 0.7, u=lambda x, y: 1 + x
     values = u(*kind.nodes(mesh, np.arange(kind.size(mesh))))
     force = np.where(active, 1 + x + 2 * y, 0)
     return SimpleNamespace(
-        element=element, n=8, u=values, contact=contact, active=active, lower=0.1 * x, multiplier=force
+        element=element,
+        n=8,
+        u=values,
+        contact=contact,
+        active=active,
+        lower=0.1 * x,
+        multiplier=force,
     )

@@ -16,25 +16,43 @@ FORMULAS = st.recursive(
     lambda inner: st.one_of(
         st.builds("({} {} {})".format, inner, st.sampled_from("+-*/"), inner),
         st.builds("({})**{}".format, inner, st.sampled_from(["2", "3", "-1", "0.5", "(1/3)"])),
-        st.builds("{}({})".format, st.sampled_from(["sin", "cos", "exp", "log", "sqrt", "tanh", "pos", "abs"]), inner),
+        st.builds(
+            "{}({})".format,
+            st.sampled_from(["sin", "cos", "exp", "log", "sqrt", "tanh", "pos", "abs"]),
+            inner,
+        ),
         st.builds("where({} < {}, {}, {})".format, inner, inner, inner, inner),
-        st.builds("{}({}, {})".format, st.sampled_from(["min", "max", "hypot", "atan2"]), inner, inner),
+        st.builds(
+            "{}({}, {})".format, st.sampled_from(["min", "max", "hypot", "atan2"]), inner, inner
+        ),
     ),
     max_leaves=5,
 )
-NONSENSE = st.sampled_from(["sinn(x)", "x^2", "2x", "1/0", "x <", "__import__('os')", "log(-1)", "", "1/(x - x)"])
-SMOOTH = st.builds("{}*sin({}*x + {}*y) + {}".format, *[st.floats(-8, 8, allow_nan=False).map("({:.3g})".format)] * 4)
+NONSENSE = st.sampled_from(
+    ["sinn(x)", "x^2", "2x", "1/0", "x <", "__import__('os')", "log(-1)", "", "1/(x - x)"]
+)
+SMOOTH = st.builds(
+    "{}*sin({}*x + {}*y) + {}".format,
+    *[st.floats(-8, 8, allow_nan=False).map("({:.3g})".format)] * 4,
+)
 DATA = st.one_of(SMOOTH, SMOOTH, NUMBERS, FORMULAS, st.floats(-9, 9))
 COEFFICIENTS = st.one_of(
     st.just(1),
     st.floats(1e-6, 1e6),
-    st.builds("where(x < {:.3g}, {:.3g}, {:.3g})".format, st.floats(-1, 1), st.floats(1e-6, 9), st.floats(1e-3, 1e6)),
+    st.builds(
+        "where(x < {:.3g}, {:.3g}, {:.3g})".format,
+        st.floats(-1, 1),
+        st.floats(1e-6, 9),
+        st.floats(1e-3, 1e6),
+    ),
     st.builds("1 + ({})**2".format, FORMULAS),
     DATA,
 )
 
 COORDINATES = st.sampled_from([0, 0, 0, -1, 1, 0.1, 1e4, -1e6, 1e-9, 1e14])
-LENGTHS = st.one_of(st.sampled_from([1, 1, 1, 2, 0.3, 1e-9, 1e9, 1e-2, 1e-6, -1]), st.floats(1e-3, 1e3))
+LENGTHS = st.one_of(
+    st.sampled_from([1, 1, 1, 2, 0.3, 1e-9, 1e9, 1e-2, 1e-6, -1]), st.floats(1e-3, 1e3)
+)
 RECTANGLES = st.fixed_dictionaries(
     {"kind": st.just("rectangle")},
     optional={
@@ -67,7 +85,9 @@ def boundaries(draw, domain):
         conditions = st.one_of(FORMULAS, st.just("rest"), st.just("0.1 - y"), NONSENSE)
         return draw(st.dictionaries(st.sampled_from(LABELS), conditions, min_size=1))
     count = len(domain.get("corners", []))
-    names = [f"side-{k}" for k in range(count)] + ["hole-0"] * len(domain.get("holes", [])) or list(SIDES)
+    names = [f"side-{k}" for k in range(count)] + ["hole-0"] * len(domain.get("holes", [])) or list(
+        SIDES
+    )
     if draw(st.booleans()):
         labels = ["contact", "dirichlet", *["neumann"] * len(names)][: len(names)]
     else:
@@ -85,7 +105,9 @@ def scenes(draw):
     data = {"f": draw(DATA)}
     if draw(st.integers(0, 9)) == 7:
         data["f"] = draw(NONSENSE)
-    data |= draw(st.fixed_dictionaries({}, optional={"g": DATA, "dirichlet": DATA, "obstacle": DATA}))
+    data |= draw(
+        st.fixed_dictionaries({}, optional={"g": DATA, "dirichlet": DATA, "obstacle": DATA})
+    )
     if draw(st.integers(0, 3)) == 2:
         data["coefficient"] = draw(COEFFICIENTS)
     polygon = domain["kind"] == "polygon"
@@ -101,7 +123,12 @@ def scenes(draw):
 
 MOVES = st.one_of(
     st.tuples(st.just("move"), st.integers(0, 15), st.floats(-0.5, 3.5), st.floats(-0.5, 3.5)),
-    st.tuples(st.just("move"), st.integers(0, 15), st.sampled_from([float("nan"), 1e300, 0.0]), st.just(1.0)),
+    st.tuples(
+        st.just("move"),
+        st.integers(0, 15),
+        st.sampled_from([float("nan"), 1e300, 0.0]),
+        st.just(1.0),
+    ),
     st.tuples(st.just("renumber"), st.integers(0, 17), st.integers(0, 2), st.integers(0, 17)),
     st.tuples(st.just("drop"), st.integers(0, 17)),
     st.tuples(st.just("turn"), st.integers(0, 17)),

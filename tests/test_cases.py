@@ -1,4 +1,6 @@
-"""The cases that a solver of Signorini problems must survive, by number; those that other files test are named here."""
+"""The cases that a solver of Signorini problems must survive, by number; those that other files
+test are named here.
+"""
 
 import re
 import subprocess
@@ -22,7 +24,9 @@ from signorini.studies.stability.success import HARD, measure
 
 HERE = Path(__file__).parent
 ELSEWHERE = {
-    "1 plain active set cycles": ["solvers/test_contact.py::test_known_solution_where_the_plain_method_cycles"],
+    "1 plain active set cycles": [
+        "solvers/test_contact.py::test_known_solution_where_the_plain_method_cycles"
+    ],
     "4 bounded least squares": [
         "solvers/test_contact.py::test_bounded_least_squares_agrees",
         "solvers/test_direct.py::test_bounded_least_squares_agrees",
@@ -54,7 +58,9 @@ ELSEWHERE = {
         "solvers/test_solve.py::test_stretched_cells_cost_the_fourier_route_no_digits",
         "solvers/test_solve.py::test_the_direct_route_never_calls_a_wrong_answer_solved",
     ],
-    "10 an iteration limit, no table": ["workflow/test_mistakes.py::test_a_scene_that_cannot_be_solved"],
+    "10 an iteration limit, no table": [
+        "workflow/test_mistakes.py::test_a_scene_that_cannot_be_solved"
+    ],
     "11 expected rates": ["scene/test_scenes.py::test_an_exact_scene_finds_what_it_expects"],
     "13 small differences, no logarithm of zero": [
         "errors/test_errors.py::test_tiny_differences_are_measured",
@@ -74,7 +80,9 @@ def test_a_case_of_another_file_is_there(case):
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("diagonal", ["falling", "rising", "alternating", "criss-cross"])
 def test_case_2_a_biactive_contact_side(diagonal, element):
-    """E5, f = 1 on the obstacle 1/2: neither gap nor force anywhere, on every diagonal; plain methods cycle."""
+    """E5, f = 1 on the obstacle 1/2: neither gap nor force anywhere, on every diagonal; plain
+    methods cycle.
+    """
     problem = discretize(statement(f=1, obstacle=0.5, domain={"diagonal": diagonal}), element, 4)
     for method in METHODS:
         if extremes.applies(problem, method):
@@ -86,9 +94,11 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_case_3_success_rate(family, monkeypatch):
-    """84 or 42 problems for each of 11 families: all solved to 1e-9, no claim, status or estimate in error.
+    """84 or 42 problems for each of 11 families: all solved to 1e-9, no claim, status or estimate
+    in error.
 
-    Bodies graded or stiff in parts, and large constants, may be less than solved where double precision can no more.
+    Bodies graded or stiff in parts, and large constants, may be less than solved where double
+    precision can no more.
     """
     monkeypatch.setattr("signorini.studies.stability.success.RIVALS", {})
     seeds = range(3 if family in HARD else 6)
@@ -109,7 +119,9 @@ def test_case_4_random_scenes_agree_with_bvls(problem):
     rows = extremes.compare(problem)
     assert rows
     for row in rows:
-        assert row["status"] == "solved" or row["stored"] > 1e-11  # u has no room for more beside its constant
+        assert (
+            row["status"] == "solved" or row["stored"] > 1e-11
+        )  # u has no room for more beside its constant
         assert row["difference"] <= 1e-14 * row["condition"]
 
 
@@ -160,7 +172,10 @@ def test_case_10_one_thread_or_two():
         subprocess.run(
             [sys.executable, "-c", program],
             cwd=HERE.parent,
-            env={name: str(threads) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")},
+            env={
+                name: str(threads)
+                for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+            },
             capture_output=True,
             text=True,
             check=True,

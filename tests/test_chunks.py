@@ -12,7 +12,10 @@ from signorini.mesh import grid as grids
 from signorini.mesh.grid import SIDES
 from signorini.solvers import solve
 
-BOUNDARIES = {side: tuple(np.roll(["contact", "neumann", "dirichlet", "neumann"], k)) for k, side in enumerate(SIDES)}
+BOUNDARIES = {
+    side: tuple(np.roll(["contact", "neumann", "dirichlet", "neumann"], k))
+    for k, side in enumerate(SIDES)
+}
 BOUNDARIES["held beside"] = ("contact", "dirichlet", "neumann", "dirichlet")
 SMOOTH = {"f": "30*sin(9*x + 7*y) - 2", "dirichlet": "0.1 + 0.1*x*y", "obstacle": "0.1*sin(6*x*y)"}
 
@@ -21,7 +24,9 @@ SMOOTH = {"f": "30*sin(9*x + 7*y) - 2", "dirichlet": "0.1 + 0.1*x*y", "obstacle"
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])
 @pytest.mark.parametrize("labels", BOUNDARIES.values(), ids=BOUNDARIES)
 @pytest.mark.parametrize("cells", [1, 20])
-def test_blocks_of_any_size_give_the_same_to_rounding(monkeypatch, cells, labels, diagonal, element):
+def test_blocks_of_any_size_give_the_same_to_rounding(
+    monkeypatch, cells, labels, diagonal, element
+):
     def solution():
         problem = discretize_on(grid(7, 6, labels, diagonal=diagonal), element, statement(**SMOOTH))
         return problem.b, solve(problem, "fourier")
@@ -36,8 +41,13 @@ def test_blocks_of_any_size_give_the_same_to_rounding(monkeypatch, cells, labels
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("data", [DATA, SMOOTH], ids=["the paper's", "not zero on the boundary"])
 def test_peak_memory(element, data):
-    """The load, the load scaled, u, the residual, and the scale of the forces: five arrays, and what a block needs."""
-    mesh, asked = grid(512, labels=("contact", "neumann", "dirichlet", "neumann")), statement(**data)
+    """The load, the load scaled, u, the residual, and the scale of the forces: five arrays, and
+    what a block needs.
+    """
+    mesh, asked = (
+        grid(512, labels=("contact", "neumann", "dirichlet", "neumann")),
+        statement(**data),
+    )
     tracemalloc.start()
     try:
         solution = solve(discretize_on(mesh, element, asked), "fourier")

@@ -58,7 +58,9 @@ def test_an_unknown_name_is_no_attribute():
         signorini.solv  # noqa: B018
 
 
-@pytest.mark.parametrize("module", ["signorini", "signorini.fem.problem", "signorini.solvers.select"])
+@pytest.mark.parametrize(
+    "module", ["signorini", "signorini.fem.problem", "signorini.solvers.select"]
+)
 def test_the_examples_of_the_docstrings_run(module, monkeypatch):
     monkeypatch.chdir(ROOT)
     failed, tried = doctest.testmod(importlib.import_module(module))

@@ -12,7 +12,13 @@ from signorini.fem.problem import discretize_on
 from signorini.mesh.domain import make_domain
 from signorini.solvers import solve
 
-SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+SQUARE = {
+    "kind": "rectangle",
+    "origin": [0, 0],
+    "size": [1, 1],
+    "diagonal": "falling",
+    "cells": "per-unit",
+}
 SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
 TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
 
@@ -20,7 +26,10 @@ TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
 @pytest.mark.parametrize("size", [[1e9, 1e3], [1e9, 1e9], [1e300, 1]])
 def test_case_10_a_level_beyond_all_memory_is_refused_with_a_prediction(size):
     domain = make_domain(SQUARE | {"size": size}, SIDES, 4)
-    with pytest.raises(MeshError, match=r"levels: n = 4 .* triangles and needs at least .* GB of memory|extends over"):
+    with pytest.raises(
+        MeshError,
+        match=r"levels: n = 4 .* triangles and needs at least .* GB of memory|extends over",
+    ):
         domain.level(4)
 
 
@@ -33,12 +42,16 @@ def test_case_10_a_level_beyond_all_memory_is_refused_with_a_prediction(size):
     ],
     ids=["grid", "pattern", "polygon"],
 )
-def test_the_prediction_is_made_for_every_kind_of_mesh(monkeypatch, domain, boundary, fits, not_any_more):
+def test_the_prediction_is_made_for_every_kind_of_mesh(
+    monkeypatch, domain, boundary, fits, not_any_more
+):
     """As on a machine with 0.1 MB: a grid takes 30 bytes per triangle, other meshes 85."""
     monkeypatch.setattr(memory, "_memory", lambda: 1e5)
     made = make_domain(domain, boundary, 2)
     assert made.level(fits).number_of_triangles > 0
-    refused = f"levels: n = {not_any_more} has .* but there are 0.0001 GB here; choose smaller levels"
+    refused = (
+        f"levels: n = {not_any_more} has .* but there are 0.0001 GB here; choose smaller levels"
+    )
     with pytest.raises(MeshError, match=refused):
         made.level(not_any_more)
 
@@ -46,9 +59,21 @@ def test_the_prediction_is_made_for_every_kind_of_mesh(monkeypatch, domain, boun
 @pytest.mark.parametrize(
     ("triangles", "memory_here", "words"),
     [
-        (67_108_864, 25e9, "has 67 million triangles and needs at least 74 GB of memory, but there are 25 GB here"),
-        (2**9, 2e5, "has 512 triangles and needs at least 0.00056 GB of memory, but there are 0.0002 GB here"),
-        (2**31, 25e12, "has 2147 million triangles, more than the 1074 million that can be numbered"),
+        (
+            67_108_864,
+            25e9,
+            "has 67 million triangles and needs at least 74 GB of memory, but there are 25 GB here",
+        ),
+        (
+            2**9,
+            2e5,
+            "has 512 triangles and needs at least 0.00056 GB of memory, but there are 0.0002 GB here",
+        ),
+        (
+            2**31,
+            25e12,
+            "has 2147 million triangles, more than the 1074 million that can be numbered",
+        ),
     ],
 )
 def test_a_shortage_in_words(monkeypatch, triangles, memory_here, words):
@@ -63,12 +88,16 @@ def test_routes_predict_what_they_need(monkeypatch, element):
     monkeypatch.setattr(memory, "_memory", lambda: 5e4)
     assert solve(problem, "fourier").status == "solved"
     for route in ("direct", "multigrid"):
-        with pytest.raises(MeshError, match=rf"levels: a mesh for solver\.method {route} has 512 triangles and"):
+        with pytest.raises(
+            MeshError, match=rf"levels: a mesh for solver\.method {route} has 512 triangles and"
+        ):
             solve(problem, route)
 
 
 def test_auto_takes_a_factorisation_only_where_it_fits(monkeypatch):
-    problem = discretize_on(grid(150, labels=("contact",) * 4, size=(1.0, 0.01)), "P1", statement(f=-1, obstacle=-1))
+    problem = discretize_on(
+        grid(150, labels=("contact",) * 4, size=(1.0, 0.01)), "P1", statement(f=-1, obstacle=-1)
+    )
     assert solve(problem).method == "direct"
     monkeypatch.setattr(memory, "_memory", lambda: 1e7)
     assert solve(problem).method == "multigrid"
@@ -88,7 +117,9 @@ def times_refined(mesh, times):
 
 
 def traced_peak(fine, coarse, element, method):
-    """Bytes for each unknown of making a mesh, discretising and solving; a coarse one has loaded the libraries."""
+    """Bytes for each unknown of making a mesh, discretising and solving; a coarse one has loaded
+    the libraries.
+    """
     asked = statement(f="10*(1 - x)")
     solve(discretize_on(coarse(), element, asked), method)
     tracemalloc.start()
@@ -102,7 +133,9 @@ def traced_peak(fine, coarse, element, method):
 
 @pytest.mark.parametrize(("element", "most"), [("P1", 400), ("CR", 350)])
 def test_multigrid_on_a_refined_mesh_keeps_to_its_bytes(element, most):
-    """As docs/solvers.md says; with numbers of 64 bits, and the finest facets kept, P1 took 485 to 508."""
+    """As docs/solvers.md says; with numbers of 64 bits, and the finest facets kept, P1 took 485 to
+    508.
+    """
     fine, coarse = (lambda: times_refined(l_shape(), 6)), (lambda: times_refined(l_shape(), 3))
     assert traced_peak(fine, coarse, element, "multigrid") < most
 

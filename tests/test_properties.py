@@ -1,4 +1,5 @@
-"""Whole scenes at random: whatever goes in, out comes an error that names a field, or a solution that is one.
+"""Whole scenes at random: whatever goes in, out comes an error that names a field, or a solution
+that is one.
 
 What a solution must satisfy is written here anew, with scikit-fem's matrix and plain NumPy.
 """
@@ -29,7 +30,9 @@ from signorini.scene.scene import load_scene
 from signorini.solvers import solve
 from signorini.solvers.fourier import obstruction
 
-FIELDS = r"\b(domain|boundary|data|levels|elements|load_quadrature|truth|norms|outputs|polygon|solver)\b"
+FIELDS = (
+    r"\b(domain|boundary|data|levels|elements|load_quadrature|truth|norms|outputs|polygon|solver)\b"
+)
 EPS, TINY = np.finfo(float).eps, np.finfo(float).tiny
 
 
@@ -65,7 +68,9 @@ def check_kkt(problem, A, b, u, multiplier, lower, fixed_values, tolerance):
     assert np.min(gap, initial=0) >= -tolerance, "no penetration"
     assert np.min(pressure, initial=0) >= -tolerance, "the force presses"
     assert largest(np.minimum(gap, pressure)) <= tolerance, "complementarity"
-    given_force = np.divide(multiplier, terms[problem.contact], out=np.zeros_like(multiplier), where=multiplier > 0)
+    given_force = np.divide(
+        multiplier, terms[problem.contact], out=np.zeros_like(multiplier), where=multiplier > 0
+    )
     np.testing.assert_allclose(given_force, pressure, rtol=0, atol=2 * tolerance)
 
 
@@ -82,14 +87,18 @@ def by_least_squares(problem, A, b, lower, fixed_values):
     R = np.linalg.cholesky(S / np.outer(d, d)).T
     if c.size:
         size = largest(q / d) or 1.0
-        found = lsq_linear(R, np.linalg.solve(R.T, q / d / size), (0, np.inf), "bvls", tol=1e-15, max_iter=1000)
+        found = lsq_linear(
+            R, np.linalg.solve(R.T, q / d / size), (0, np.inf), "bvls", tol=1e-15, max_iter=1000
+        )
         u[c] = lower + size * found.x / d
     u[i] = inverse @ (load[i] - A[np.ix_(i, c)] @ (u[c] - lower))
     return u
 
 
 def check_solution(problem):
-    """Solve by every route that applies; check the conditions, the routes against each other, and BVLS."""
+    """Solve by every route that applies; check the conditions, the routes against each other, and
+    BVLS.
+    """
     routes = ["auto", "direct", *["fourier"] * (obstruction(problem) is None)]
     solutions = [solve(problem, route) for route in routes]
     found, A = solutions[0], stiffness(problem)
@@ -102,7 +111,10 @@ def check_solution(problem):
     lower, fixed_values = np.ldexp(problem.lower, -length), np.ldexp(problem.fixed_values, -length)
     for solution in solutions:
         assert solution.status in ("solved", "inaccurate")
-        u, multiplier = np.ldexp(solution.u, -length), np.ldexp(solution.multiplier, -length - A_exponent)
+        u, multiplier = (
+            np.ldexp(solution.u, -length),
+            np.ldexp(solution.multiplier, -length - A_exponent),
+        )
         assert np.isfinite(u).all()
         tolerance = 1e-10 if solution.residual <= 1e-10 else 1e-6
         check_kkt(problem, A, b, u, multiplier, lower, fixed_values, tolerance)
@@ -111,12 +123,16 @@ def check_solution(problem):
         if solution.status == found.status == "solved":
             np.testing.assert_allclose(u, np.ldexp(found.u, -length), rtol=0, atol=1e-10)
     condition = (
-        np.linalg.cond(A[np.ix_(problem.free, problem.free)]) if problem.fixed.size * problem.free.size else np.inf
+        np.linalg.cond(A[np.ix_(problem.free, problem.free)])
+        if problem.fixed.size * problem.free.size
+        else np.inf
     )
     if condition < 1e12:
         expected = by_least_squares(problem, A, b, lower, fixed_values)
         size = largest(expected, lower, fixed_values)
-        np.testing.assert_allclose(np.ldexp(found.u, -length), expected, rtol=0, atol=100 * condition * EPS * size)
+        np.testing.assert_allclose(
+            np.ldexp(found.u, -length), expected, rtol=0, atol=100 * condition * EPS * size
+        )
 
 
 SUBNORMAL = 2.0**-1000  # data below have lost digits, or their products do
@@ -128,7 +144,9 @@ def attempt(folder, document, element):
     path.write_text(json.dumps(document))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warnings.filterwarnings("ignore", ".*(data as small as|vertices belong to no triangle)", UserWarning)
+        warnings.filterwarnings(
+            "ignore", ".*(data as small as|vertices belong to no triangle)", UserWarning
+        )
         try:
             scene = load_scene(path)
             problem = discretize(scene, element, scene.levels[0])
@@ -151,7 +169,9 @@ def folder(tmp_path_factory):
 
 
 @given(document=scenes(), element=st.sampled_from(["P1", "CR"]))
-@settings(max_examples=120, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(
+    max_examples=120, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
+)
 def test_a_scene_is_solved_or_refused_by_the_name_of_a_field(folder, document, element):
     message = attempt(folder, document, element)
     check_message(message, FIELDS)
@@ -162,7 +182,9 @@ NUMBERS = {"bottom": 1, "right": 2, "top": 3, "left": 4, "inner": 5}
 
 
 def gmsh(p, t, bottom):
-    """A Gmsh file: the sides of the square as physical groups, its bottom perhaps without the first facet."""
+    """A Gmsh file: the sides of the square as physical groups, its bottom perhaps without the first
+    facet.
+    """
     ends = [(NUMBERS[side], a + 1, b + 1) for side in SQUARE.parts for a, b in SQUARE.parts[side].T]
     lines = [f"1 2 {tag} {tag} {a} {b}" for tag, a, b in ends[0 if bottom else 1 :]]
     cells = lines + [f"2 2 5 1 {a + 1} {b + 1} {c + 1}" for a, b, c in t]
@@ -183,11 +205,17 @@ def gmsh(p, t, bottom):
     element=st.sampled_from(["P1", "CR"]),
     n=st.sampled_from([1, 2]),
 )
-@settings(max_examples=100, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
-def test_a_mesh_file_is_solved_or_refused(folder, monkeypatch, moves, labels, bottom, data, element, n):
+@settings(
+    max_examples=100, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck)
+)
+def test_a_mesh_file_is_solved_or_refused(
+    folder, monkeypatch, moves, labels, bottom, data, element, n
+):
     """Read in this process: less safe, but faster."""
     monkeypatch.setattr(imported, "run_apart", lambda _, path, **limits: parse(path))
-    (folder / "square.msh").write_text(gmsh(*changed_mesh(SQUARE.p.T.tolist(), SQUARE.t.T.tolist(), moves), bottom))
+    (folder / "square.msh").write_text(
+        gmsh(*changed_mesh(SQUARE.p.T.tolist(), SQUARE.t.T.tolist(), moves), bottom)
+    )
     document = {
         "domain": {"kind": "mesh", "file": "square.msh"},
         "boundary": dict(zip(SQUARE.parts, labels, strict=True)),
@@ -198,7 +226,10 @@ def test_a_mesh_file_is_solved_or_refused(folder, monkeypatch, moves, labels, bo
     check_message(message, FIELDS + "|square.msh")
 
 
-@given(content=st.binary(max_size=300), ending=st.sampled_from(["msh", "vtu", "vtk", "mesh", "xdmf", "inp", "stl"]))
+@given(
+    content=st.binary(max_size=300),
+    ending=st.sampled_from(["msh", "vtu", "vtk", "mesh", "xdmf", "inp", "stl"]),
+)
 @settings(max_examples=6, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 def test_random_bytes_are_no_mesh(folder, content, ending):
     path = folder / f"random.{ending}"

@@ -19,8 +19,16 @@ from signorini.storage import (
     write_text,
 )
 
-ARRAYS = {"u": np.linspace(0, 1, 9), "active": np.array([True, False]), "n": np.array(4), "element": np.array("P1")}
-ROWS = [{"element": "P1", "n": 2, "l2": 0.1 + 0.2, "h1": None}, {"element": "CR", "n": 4, "l2": 5e-324, "h1": 1.0}]
+ARRAYS = {
+    "u": np.linspace(0, 1, 9),
+    "active": np.array([True, False]),
+    "n": np.array(4),
+    "element": np.array("P1"),
+}
+ROWS = [
+    {"element": "P1", "n": 2, "l2": 0.1 + 0.2, "h1": None},
+    {"element": "CR", "n": 4, "l2": 5e-324, "h1": 1.0},
+]
 
 
 @pytest.fixture
@@ -37,7 +45,9 @@ def rewrite(path, content):
 
 
 def same(found):
-    return found.keys() == ARRAYS.keys() and all(np.array_equal(found[name], ARRAYS[name]) for name in ARRAYS)
+    return found.keys() == ARRAYS.keys() and all(
+        np.array_equal(found[name], ARRAYS[name]) for name in ARRAYS
+    )
 
 
 def test_arrays_come_back(stored):
@@ -70,7 +80,9 @@ def test_truncated_arrays_are_refused(stored):
 
 
 def test_an_array_that_hides_its_end_is_refused(tmp_path):
-    """Its checksum is that of all its bytes, and would not be looked at if the rest were left unread."""
+    """Its checksum is that of all its bytes, and would not be looked at if the rest were left
+    unread.
+    """
     path = tmp_path / "a.npz"
     write_npz(path, "solution", u=np.zeros(262144))
     content = path.read_bytes()
@@ -80,7 +92,9 @@ def test_an_array_that_hides_its_end_is_refused(tmp_path):
         read_npz(path, "solution")
 
 
-@pytest.mark.parametrize("content", [b"", b"text", b"\x80\x04K\x01."], ids=["empty", "text", "pickle"])
+@pytest.mark.parametrize(
+    "content", [b"", b"text", b"\x80\x04K\x01."], ids=["empty", "text", "pickle"]
+)
 def test_what_is_no_archive_is_refused(tmp_path, content):
     (tmp_path / "a.npz").write_bytes(content)
     with pytest.raises(StorageError, match=r"a\.npz: truncated or altered"):
@@ -111,7 +125,9 @@ def test_truncated_tables_are_refused(tmp_path):
     header, first, _ = content.splitlines(keepends=True)
     for length in range(len(content)):
         rewrite(path, content[:length])
-        with pytest.raises(StorageError, match=r"a\.csv: truncated or altered .*; delete it and rerun"):
+        with pytest.raises(
+            StorageError, match=r"a\.csv: truncated or altered .*; delete it and rerun"
+        ):
             read_csv(path)
         if length != len(header + first):
             with pytest.raises(StorageError, match="not a readable table"):

@@ -84,7 +84,9 @@ def test_strange_tables_are_refused_by_name(tmp_path, text, numbers):
 
 def test_a_missing_table_is_named(tmp_path):
     for read in (read_csv, read_table):
-        with pytest.raises(StorageError, match=r"t\.csv: cannot read \(No such file .*\); delete it and rerun"):
+        with pytest.raises(
+            StorageError, match=r"t\.csv: cannot read \(No such file .*\); delete it and rerun"
+        ):
             read(tmp_path / "t.csv")
 
 
@@ -100,7 +102,9 @@ class Trap:
 
 def test_python_objects_are_not_unpickled(tmp_path):
     stream = io.BytesIO()
-    np.lib.format.write_array(stream, np.array([Trap(tmp_path / "trap")], dtype=object), allow_pickle=True)
+    np.lib.format.write_array(
+        stream, np.array([Trap(tmp_path / "trap")], dtype=object), allow_pickle=True
+    )
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
         archive.comment = b"kind"
         archive.writestr("kind.npy", stream.getvalue())
@@ -157,7 +161,9 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch)
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(storage.os, "replace", full)
-    with pytest.raises(StorageError, match=r"t\.txt: cannot write \(No space left on device\); free space"):
+    with pytest.raises(
+        StorageError, match=r"t\.txt: cannot write \(No space left on device\); free space"
+    ):
         write_text(tmp_path / "t.txt", "new")
     assert sorted(os.listdir(tmp_path)) == SEALED
     assert (tmp_path / "t.txt").read_text() == "old"

@@ -13,7 +13,9 @@ DOCS = Path(__file__).parents[1] / "docs"
 def update(monkeypatch, tmp_path):
     """The script as a module, with a file of measured durations of its own."""
     monkeypatch.setattr(sys, "path", [str(DOCS), *sys.path])
-    specification = importlib.util.spec_from_file_location("update_readme", DOCS / "update_readme.py")
+    specification = importlib.util.spec_from_file_location(
+        "update_readme", DOCS / "update_readme.py"
+    )
     module = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
     monkeypatch.setattr(module, "DURATIONS", tmp_path / "durations.csv")
@@ -31,7 +33,13 @@ def test_readme_tells_three_durations(update):
 
 @pytest.mark.parametrize(
     ("seconds", "text"),
-    [(0, "about 5 s"), (11, "about 10 s"), (89, "about 90 s"), (91, "about 2 min"), (380, "about 6 min")],
+    [
+        (0, "about 5 s"),
+        (11, "about 10 s"),
+        (89, "about 90 s"),
+        (91, "about 2 min"),
+        (380, "about 6 min"),
+    ],
 )
 def test_durations_are_round(update, seconds, text):
     assert update.about(seconds) == text

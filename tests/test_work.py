@@ -25,7 +25,9 @@ def test_a_solve_reports_its_steps_and_factorisations(method, eliminations):
     assert work.steps == solution.iterations
     assert work.factorisations == eliminations
     assert work.cycles == 0
-    assert work.inner >= work.steps  # each active set is judged by one product with the condensed matrix
+    assert (
+        work.inner >= work.steps
+    )  # each active set is judged by one product with the condensed matrix
 
 
 def test_products_are_those_of_the_residuals_and_of_the_proof():

@@ -1,4 +1,5 @@
-"""signorini: Crouzeix-Raviart and conforming P1 approximation of Signorini's variational inequality.
+"""signorini: Crouzeix-Raviart and conforming P1 approximation of Signorini's variational
+inequality.
 
 >>> import signorini
 >>> scene = signorini.load_scene("config/scenes/paper.yaml")
@@ -11,7 +12,8 @@ import importlib
 
 __version__ = "0.1.0"
 
-# Public name -> its room; a room is entered when first asked for, so that importing signorini costs nothing.
+# Public name -> its room; a room is entered when first asked for, so that importing signorini costs
+# nothing.
 _ROOMS = {
     "SignoriniError": "exceptions",
     "Scene": "scene.scene",

@@ -1,4 +1,6 @@
-"""Long arrays worked through piece by piece, so that temporaries stay small and in the processor's cache."""
+"""Long arrays worked through piece by piece, so that temporaries stay small and in the processor's
+cache.
+"""
 
 _SIZE = 2**15
 

@@ -4,8 +4,9 @@ import os
 
 from signorini.exceptions import MeshError
 
-# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: a grid with its load, discretised and
-# solved by the fourier route; any other mesh, discretised; and solved by the other routes.
+# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: a grid with its
+# load, discretised and solved by the fourier route; any other mesh, discretised; and solved by the
+# other routes.
 GRID, MESH, DIRECT, MULTIGRID = 30, 85, {"P1": 1100, "CR": 1800}, {"P1": 130, "CR": 400}
 # The same by the name of the route, the frugal first.
 ROUTES = {"fourier": {"P1": GRID, "CR": GRID}, "multigrid": MULTIGRID, "direct": DIRECT}
@@ -43,13 +44,17 @@ def fits(triangles, bytes_each):
 def shortage(triangles, bytes_each):
     """What a number of triangles needs and what there is, in words."""
     if triangles * bytes_each <= _memory():
-        return f"has {_plain(triangles)} triangles, more than the {_plain(_MOST)} that can be numbered"
+        return (
+            f"has {_plain(triangles)} triangles, more than the {_plain(_MOST)} that can be numbered"
+        )
     needed, given = _plain(triangles * bytes_each / 1e9), _plain(_memory() / 1e9)
     return f"has {_plain(triangles)} triangles and needs at least {needed} GB of memory, but there are {given} GB here"
 
 
 def _plain(size):
-    """A number to the last digit before the point, a small one to two digits: no reader wants 2.8e+02."""
+    """A number to the last digit before the point, a small one to two digits: no reader wants
+    2.8e+02.
+    """
     if 1e7 <= size < 1e11:
         return f"{size / 1e6:.0f} million"
     return f"{size:.0f}" if 10 <= size < 1e11 else f"{size:.2g}"

@@ -1,7 +1,8 @@
 """Files: written whole or not at all, and refused when truncated or altered.
 
-An .npz carries its checksums inside. Every other result has its SHA-256 digest in a hidden file beside it, in the
-format of sha256sum: ``errors.csv`` in ``.errors.csv.sha256``. So tables stay plain, and a copy of a folder is complete.
+An .npz carries its checksums inside. Every other result has its SHA-256 digest in a hidden file
+beside it, in the format of sha256sum: ``errors.csv`` in ``.errors.csv.sha256``. So tables stay
+plain, and a copy of a folder is complete.
 """
 
 import csv
@@ -21,7 +22,8 @@ from signorini.exceptions import StorageError
 
 @contextmanager
 def replacing(path, mode="w", **options):
-    """Open a temporary file beside `path` that takes its place when the block ends without an error.
+    """Open a temporary file beside `path` that takes its place when the block ends without an
+    error.
 
     Raises
     ------
@@ -97,7 +99,9 @@ def _content(path):
     try:
         return Path(path).read_bytes()
     except OSError as error:
-        raise StorageError(f"{path}: cannot read ({error.strerror}); delete it and rerun") from error
+        raise StorageError(
+            f"{path}: cannot read ({error.strerror}); delete it and rerun"
+        ) from error
 
 
 def _sealed(content, digest):
@@ -114,7 +118,9 @@ def write_text(path, text):
 
 
 def write_csv(path, rows):
-    """Write a non-empty list of dicts with equal keys; floats keep every digit, None is an empty field."""
+    """Write a non-empty list of dicts with equal keys; floats keep every digit, None is an empty
+    field.
+    """
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -131,7 +137,8 @@ def read_csv(path, numbers=(), every=None):
     numbers : sequence of str, optional
         Columns that become float, or None where empty; the others are text.
     every : dict of str to sequence, optional
-        Columns and values, each combination of which must have one row: ``{"element": ["P1"], "n": [2, 4]}``.
+        Columns and values, each combination of which must have one row: ``{"element": ["P1"], "n":
+        [2, 4]}``.
 
     Raises
     ------
@@ -150,13 +157,17 @@ def _rows(path, content, numbers, every):
     try:
         text = content.decode("utf-8")
         rows = list(csv.DictReader(io.StringIO(text)))
-        if not (rows and text.endswith("\n") and all(None not in (*row, *row.values()) for row in rows)):
+        if not (
+            rows and text.endswith("\n") and all(None not in (*row, *row.values()) for row in rows)
+        ):
             raise ValueError("a line is missing, or cut off")
         _check_rows(rows, every)
         for row in rows:
             row.update({key: float(row[key]) if row[key] else None for key in numbers})
     except (KeyError, TypeError, ValueError) as error:
-        raise StorageError(f"{path}: not a readable table ({error}); mend it, or delete it and rerun") from error
+        raise StorageError(
+            f"{path}: not a readable table ({error}); mend it, or delete it and rerun"
+        ) from error
     return rows
 
 
@@ -165,7 +176,9 @@ def _check_rows(rows, every):
     for values in product(*every.values()) if every else ():
         count = found[tuple(map(str, values))]
         if count != 1:
-            wanted = ", ".join(f"{column} {value}" for column, value in zip(every, values, strict=True))
+            wanted = ", ".join(
+                f"{column} {value}" for column, value in zip(every, values, strict=True)
+            )
             raise ValueError(f"{f'{count} rows' if count else 'no row'} for {wanted}")
 
 
@@ -180,12 +193,19 @@ def read_json(path):
 
 
 def write_npz(path, kind, **arrays):
-    """Write arrays as an uncompressed .npz whose entry ``kind`` says what they are; the bytes depend on them alone."""
+    """Write arrays as an uncompressed .npz whose entry ``kind`` says what they are; the bytes
+    depend on them alone.
+    """
     import numpy as np
 
     entries = {"kind": kind, **arrays}
-    with replacing(path, "wb") as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-        archive.comment = " ".join(entries).encode()  # checksums do not show an entry that is gone altogether
+    with (
+        replacing(path, "wb") as stream,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive,
+    ):
+        archive.comment = " ".join(
+            entries
+        ).encode()  # checksums do not show an entry that is gone altogether
         for name, value in entries.items():
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
             with archive.open(entry, "w", force_zip64=True) as member:
@@ -207,13 +227,19 @@ def read_npz(path, kind):
         with zipfile.ZipFile(path) as archive:
             for name in archive.namelist():
                 with archive.open(name) as member:
-                    arrays[name.removesuffix(".npy")] = np.lib.format.read_array(member, allow_pickle=False)
-                    if member.read():  # the checksum is verified at the member's end, and not before
+                    arrays[name.removesuffix(".npy")] = np.lib.format.read_array(
+                        member, allow_pickle=False
+                    )
+                    if (
+                        member.read()
+                    ):  # the checksum is verified at the member's end, and not before
                         raise ValueError(f"{name} is longer than its header says")
             if archive.comment != " ".join(arrays).encode():
                 raise ValueError("entries are missing")
     except (OSError, ValueError, EOFError, RuntimeError, MemoryError, zipfile.BadZipFile) as error:
-        raise StorageError(f"{path}: truncated or altered ({error}); delete it and rerun") from error
+        raise StorageError(
+            f"{path}: truncated or altered ({error}); delete it and rerun"
+        ) from error
     if str(arrays.pop("kind", "")) != kind:
         raise StorageError(f"{path}: does not hold a {kind}; delete it and rerun")
     return arrays

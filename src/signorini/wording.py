@@ -1,4 +1,6 @@
-"""Words of error messages: a value as a user typed it, cut to a bearable length, and the nearest of the known names."""
+"""Words of error messages: a value as a user typed it, cut to a bearable length, and the nearest of
+the known names.
+"""
 
 import difflib
 import json
@@ -8,7 +10,9 @@ WIDTH = 60  # of a value that is shown
 
 
 def shown(value):
-    """A value as JSON, cut to 60 characters; of a long list or text only the beginning is looked at."""
+    """A value as JSON, cut to 60 characters; of a long list or text only the beginning is looked
+    at.
+    """
     text = json.dumps(_beginning(value), default=lambda _: "...", ensure_ascii=False)
     return text if len(text) <= WIDTH else f"{text[: WIDTH - 3]}..."
 
@@ -21,7 +25,10 @@ def _beginning(value, deep=4):
     if deep and isinstance(value, list):
         return [_beginning(entry, deep - 1) for entry in value[:WIDTH]]
     if deep and isinstance(value, dict):
-        return {_beginning(str(key)): _beginning(entry, deep - 1) for key, entry in islice(value.items(), WIDTH)}
+        return {
+            _beginning(str(key)): _beginning(entry, deep - 1)
+            for key, entry in islice(value.items(), WIDTH)
+        }
     return value if isinstance(value, int | float | None) else "..."
 
 

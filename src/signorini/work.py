@@ -1,6 +1,7 @@
 """The work of a solve, counted: what tells a slower method from a busy machine.
 
-Solvers report what they do by `count`; whoever wants to know solves within `counting`. Elsewhere `count` does nothing.
+Solvers report what they do by `count`; whoever wants to know solves within `counting`. Elsewhere
+`count` does nothing.
 """
 
 from contextlib import contextmanager
@@ -19,7 +20,8 @@ class Work:
     cycles : int
         Multigrid cycles from the finest level.
     factorisations : int
-        Eliminations of all free unknowns off the contact part, by a sparse factorisation or by a sweep over the rows.
+        Eliminations of all free unknowns off the contact part, by a sparse factorisation or by a
+        sweep over the rows.
     steps : int
         Active sets examined.
     inner : int
@@ -61,7 +63,9 @@ def counting():
 
 
 def count(**done):
-    """Add to the counts of the innermost `counting` block, if there is one; the names are those of `Work`."""
+    """Add to the counts of the innermost `counting` block, if there is one; the names are those of
+    `Work`.
+    """
     work = _work.get()
     if work is not None:
         for name, more in done.items():

@@ -57,7 +57,9 @@ def evaluate(mesh, name, u, x, y):
     """A discrete function and its gradient at points, by looking every point up in every triangle."""
     (ax, ay), (bx, by), (cx, cy) = (mesh.p[:, v][:, :, None] for v in mesh.t)
     twice_area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    gradients = np.stack([[by - cy, cx - bx], [cy - ay, ax - cx], [ay - by, bx - ax]]) / twice_area  # of barycentrics
+    gradients = (
+        np.stack([[by - cy, cx - bx], [cy - ay, ax - cx], [ay - by, bx - ax]]) / twice_area
+    )  # of barycentrics
     second = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / twice_area
     third = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / twice_area
     barycentric = np.stack([1 - second - third, second, third])
@@ -68,7 +70,9 @@ def evaluate(mesh, name, u, x, y):
         return (values * inside).sum(axis=0), np.einsum("iq,idq->dq", values, gradient)
     values = u[mesh.t2f[:, k]]  # a facet's function is 1 - 2 barycentric of the vertex across
     across = [2, 0, 1]
-    return (values * (1 - 2 * inside[across])).sum(axis=0), -2 * np.einsum("iq,idq->dq", values, gradient[across])
+    return (values * (1 - 2 * inside[across])).sum(axis=0), -2 * np.einsum(
+        "iq,idq->dq", values, gradient[across]
+    )
 
 
 def brute_force(fine, fine_name, u, coarse, name, v, coefficient):
@@ -81,12 +85,16 @@ def brute_force(fine, fine_name, u, coarse, name, v, coefficient):
     l2 = np.sum(basis.dx * (np.asarray(found) - value.reshape(x.shape)) ** 2)
     squares = (found.grad - gradient.reshape(2, *x.shape)) ** 2
     semi, energy = np.sum(basis.dx * squares), np.sum(coefficient[:, None] * basis.dx * squares)
-    return {name: np.sqrt(value) for name, value in zip(ALL, (l2, semi, l2 + semi, energy), strict=True)}
+    return {
+        name: np.sqrt(value) for name, value in zip(ALL, (l2, semi, l2 + semi, energy), strict=True)
+    }
 
 
 @pytest.mark.parametrize("truth", ELEMENTS)
 def test_brute_force_agrees(fine, coarse, kind, truth):
-    """The coefficient jumps between the triangles of the reference's mesh, by seven orders of magnitude."""
+    """The coefficient jumps between the triangles of the reference's mesh, by seven orders of
+    magnitude.
+    """
     u, v = random_function(fine, truth, 1), random_function(coarse, kind.name, 2)
     coefficient = 10.0 ** np.random.default_rng(3).uniform(-4, 3, fine.number_of_triangles)
     expected = brute_force(fine, truth, u, coarse, kind.name, v, coefficient)
@@ -110,7 +118,9 @@ def test_powers_of_four_of_the_coefficient_pass_through_unrounded(coarse, kind, 
     u, v = random_function(fine, "P1", 1), random_function(coarse, kind.name, 2)
     coefficient = np.random.default_rng(3).uniform(1, 9, fine.number_of_triangles)
     plain, scaled = (
-        ReferenceErrors(fine, "P1", u, ["energy"], coefficient=np.ldexp(coefficient, k)).of(coarse, kind.name, v)
+        ReferenceErrors(fine, "P1", u, ["energy"], coefficient=np.ldexp(coefficient, k)).of(
+            coarse, kind.name, v
+        )
         for k in (0, power)
     )
     assert scaled["energy"] == np.ldexp(plain["energy"], power // 2)
@@ -118,27 +128,39 @@ def test_powers_of_four_of_the_coefficient_pass_through_unrounded(coarse, kind, 
 
 @pytest.mark.parametrize("rule", RULES)
 def test_a_rule_is_applied_on_the_references_mesh(coarse, kind, rule):
-    """The midpoints rule is exact for squares, centroid and vertices are their one- and three-point namesakes."""
+    """The midpoints rule is exact for squares, centroid and vertices are their one- and three-point
+    namesakes.
+    """
     fine = finer(coarse)
     u, v = random_function(fine, "P1", 1), random_function(coarse, kind.name, 2)
     found = ReferenceErrors(fine, "P1", u, ["l2"], rule).of(coarse, kind.name, v)["l2"]
     if rule == "midpoints":
-        assert found == pytest.approx(ReferenceErrors(fine, "P1", u).of(coarse, kind.name, v)["l2"], rel=1e-12)
+        assert found == pytest.approx(
+            ReferenceErrors(fine, "P1", u).of(coarse, kind.name, v)["l2"], rel=1e-12
+        )
         return
     inward = 1e-9  # a discontinuous function has a value at the vertices of each triangle
     points = np.full((3, 1), 1 / 3) if rule == "centroid" else (1 - 3 * inward) * np.eye(3) + inward
     basis = Basis(
-        fine.skfem, element("P1").skfem(), quadrature=(points[1:], np.full(points.shape[1], 0.5 / points.shape[1]))
+        fine.skfem,
+        element("P1").skfem(),
+        quadrature=(points[1:], np.full(points.shape[1], 0.5 / points.shape[1])),
     )
     x, y = np.asarray(basis.global_coordinates())
     value, _ = evaluate(coarse, kind.name, v, x.ravel(), y.ravel())
-    expected = np.sqrt(np.sum(basis.dx * (np.asarray(basis.interpolate(u)) - value.reshape(x.shape)) ** 2))
+    expected = np.sqrt(
+        np.sum(basis.dx * (np.asarray(basis.interpolate(u)) - value.reshape(x.shape)) ** 2)
+    )
     assert found == pytest.approx(expected, rel=1e-7)
 
 
 def test_the_reference_itself_has_no_error(fine, kind):
     u = random_function(fine, kind.name)
-    assert ReferenceErrors(fine, kind.name, u).of(fine, kind.name, u) == {"l2": 0.0, "h1_semi": 0.0, "h1": 0.0}
+    assert ReferenceErrors(fine, kind.name, u).of(fine, kind.name, u) == {
+        "l2": 0.0,
+        "h1_semi": 0.0,
+        "h1": 0.0,
+    }
 
 
 @pytest.mark.parametrize("rule", ["exact", *RULES])
@@ -161,7 +183,9 @@ def test_known_norms():
 
 
 def test_tiny_differences_are_measured(coarse, kind):
-    """Two solutions 1e-10 apart: their distance to six digits, where |u|^2 - 2(u,v) + |v|^2 has none."""
+    """Two solutions 1e-10 apart: their distance to six digits, where |u|^2 - 2(u,v) + |v|^2 has
+    none.
+    """
     fine = finer(coarse)
     u, w = random_function(fine, kind.name, 1), random_function(fine, kind.name, 2)
     zero = np.zeros_like(w)
@@ -176,7 +200,9 @@ def test_powers_of_two_pass_through_unrounded(coarse, kind, power, rule):
     fine = finer(coarse)
     u, v = random_function(fine, "P1", 1), random_function(coarse, kind.name, 2)
     plain, other = (
-        ReferenceErrors(fine, "P1", np.ldexp(u, k), quadrature=rule).of(coarse, kind.name, np.ldexp(v, k))
+        ReferenceErrors(fine, "P1", np.ldexp(u, k), quadrature=rule).of(
+            coarse, kind.name, np.ldexp(v, k)
+        )
         for k in (0, power)
     )
     assert other == {norm: np.ldexp(value, power) for norm, value in plain.items()}
@@ -262,7 +288,9 @@ def test_a_mesh_that_does_not_nest_is_refused(kind, case, rule):
         errors.of(mesh, kind.name, np.zeros(kind.size(mesh)))
 
 
-@pytest.mark.parametrize("options", [{"norms": ["H1"]}, {"norms": ["l2", "trace_l2"]}, {"quadrature": "gauss"}])
+@pytest.mark.parametrize(
+    "options", [{"norms": ["H1"]}, {"norms": ["l2", "trace_l2"]}, {"quadrature": "gauss"}]
+)
 def test_an_unknown_norm_or_rule_is_refused_with_the_known_ones(options):
     with pytest.raises(SignoriniError, match="known: "):
         ReferenceErrors(grid(2), "P1", np.zeros(9), **options).of(grid(1), "P1", np.zeros(4))
@@ -280,8 +308,12 @@ def test_projection_leaves_what_is_orthogonal(coarse):
     fine = finer(coarse)
     values = np.random.default_rng(0).standard_normal((3, fine.number_of_triangles))
     nearest, rest = project(fine, values)
-    assert squared_l2(areas(fine), values) == pytest.approx(squared_l2(areas(coarse), nearest) + rest, rel=1e-13)
-    assert squared_l2(areas(fine), values - prolong(fine, nearest)) == pytest.approx(rest, rel=1e-13)
+    assert squared_l2(areas(fine), values) == pytest.approx(
+        squared_l2(areas(coarse), nearest) + rest, rel=1e-13
+    )
+    assert squared_l2(areas(fine), values - prolong(fine, nearest)) == pytest.approx(
+        rest, rel=1e-13
+    )
     other = nearest + 0.01 * np.random.default_rng(1).standard_normal(nearest.shape)
     assert squared_l2(areas(fine), values - prolong(fine, other)) > rest
 

@@ -1,4 +1,6 @@
-"""Errors against exact solutions: against other quadratures, invariances, what is skipped, and rates."""
+"""Errors against exact solutions: against other quadratures, invariances, what is skipped, and
+rates.
+"""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -54,14 +56,19 @@ def renumbered(mesh, seed=0):
     old = rng.permutation(mesh.number_of_vertices)
     t = np.argsort(old)[mesh.t[:, rng.permutation(mesh.number_of_triangles)]]
     shuffled = MeshTri(mesh.p[:, old], rng.permuted(t, axis=0), sort_t=False)
-    boundary, bottom = shuffled.boundary_facets(), np.flatnonzero((shuffled.p[1, shuffled.facets] == 0.0).all(axis=0))
+    boundary, bottom = (
+        shuffled.boundary_facets(),
+        np.flatnonzero((shuffled.p[1, shuffled.facets] == 0.0).all(axis=0)),
+    )
     return Triangulation.from_skfem(
         shuffled.with_boundaries({"contact": bottom, "dirichlet": np.setdiff1d(boundary, bottom)})
     )
 
 
 class Polar:
-    """Integrals over (-1/3, 2/3) x (0, 1) in polar coordinates about the origin: corner is smooth in sqrt(r)."""
+    """Integrals over (-1/3, 2/3) x (0, 1) in polar coordinates about the origin: corner is smooth
+    in sqrt(r).
+    """
 
     bends = tuple(np.arctan2([0, 1, 1, 0], [2 / 3, 2 / 3, -1 / 3, -1 / 3]))
 
@@ -75,7 +82,13 @@ class Polar:
         s, weights = np.polynomial.legendre.leggauss(20)
         s, weights = 0.5 * (s + 1.0), 0.5 * weights
         c, d = np.cos(theta), np.sin(theta)
-        reach = min([1 / d if d > 0 else np.inf, 2 / 3 / c if c > 0 else np.inf, -1 / 3 / c if c < 0 else np.inf])
+        reach = min(
+            [
+                1 / d if d > 0 else np.inf,
+                2 / 3 / c if c > 0 else np.inf,
+                -1 / 3 / c if c < 0 else np.inf,
+            ]
+        )
         r = reach * s * s
         return np.sum(weights * 2 * reach * s * r * density(r, theta))
 
@@ -134,7 +147,9 @@ def test_graded_parts_cover_each_simplex_once():
     ):
         for least in (0, 2):
             share, centroid = np.zeros(corners.shape[2]), np.zeros((2, corners.shape[2]))
-            for found, points, shares, weights in graded(corners, [(0.0, 0.0), (5.0, 5.0)], rule, least):
+            for found, points, shares, weights in graded(
+                corners, [(0.0, 0.0), (5.0, 5.0)], rule, least
+            ):
                 np.add.at(share, found, shares * weights.sum(axis=-1))
                 for k, moment in enumerate(centroid):
                     x = (corners[k][:, found, None] * points).sum(axis=0)
@@ -149,15 +164,22 @@ def test_radon_is_exact_to_degree_five():
     np.testing.assert_allclose(points.sum(axis=0), 1.0, rtol=1e-15)
     for i in range(6):
         for j in range(6 - i):
-            # The integral of s**i t**j over the triangle is i! j! / (i + j + 2)!, and its area is 1/2.
-            expected = 2 * np.prod(np.arange(1, i + 1)) / np.prod(np.arange(j + 1, i + j + 3), dtype=float)
+            # The integral of s**i t**j over the triangle is i! j! / (i + j + 2)!, and its area is
+            # 1/2.
+            expected = (
+                2 * np.prod(np.arange(1, i + 1)) / np.prod(np.arange(j + 1, i + j + 3), dtype=float)
+            )
             assert weights @ (points[0] ** i * points[1] ** j) == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize("k", [-1000, 0, 1000])
 def test_sums_of_squares_neither_under_nor_overflow(k):
     values, area = np.ldexp([[3.0, 3.0], [4.0, 4.0]], k), np.ones(2)
-    parts = [square(values, area, np.full(2, 0.5)), square(0.0 * values, area, np.ones(2)), square(values, area, area)]
+    parts = [
+        square(values, area, np.full(2, 0.5)),
+        square(0.0 * values, area, np.ones(2)),
+        square(values, area, area),
+    ]
     assert root(parts[:2]) == np.ldexp(5.0, k)
     assert root(parts) == pytest.approx(np.ldexp(np.sqrt(75.0), k), rel=1e-15)
     assert root([]) == root(parts[1:2]) == 0.0
@@ -176,7 +198,9 @@ def test_chunks_do_not_matter(element, monkeypatch):
 
 @elements
 def test_a_grid_gets_the_errors_of_its_triangles(element):
-    """By lines of points and rows near the singularity, against triangle by triangle; refined where they are few."""
+    """By lines of points and rows near the singularity, against triangle by triangle; refined where
+    they are few.
+    """
     for name, diagonal, shape in (
         ("corner", "falling", (9, 7)),
         ("smooth", "rising", (70, 66)),
@@ -187,7 +211,9 @@ def test_a_grid_gets_the_errors_of_its_triangles(element):
         u = rng.standard_normal(find_element(element).size(mesh))
         weight = rng.uniform(0.5, 2.0, mesh.number_of_triangles)
         errors = ExactErrors(family(name), ["l2", "h1", "energy"])
-        whole, parts = (errors.of(m, element, u, weight) for m in (mesh, Triangulation.from_skfem(mesh.skfem)))
+        whole, parts = (
+            errors.of(m, element, u, weight) for m in (mesh, Triangulation.from_skfem(mesh.skfem))
+        )
         assert whole == pytest.approx(parts, rel=1e-12)
 
 
@@ -209,7 +235,13 @@ class Counted(ExactSolution):
         raise AssertionError("no norm needs the load")
 
 
-ASKED = {("l2",): "l2", ("h1_semi",): "h1_semi", ("h1",): "l2 h1_semi h1", ("energy",): "energy", (): ""}
+ASKED = {
+    ("l2",): "l2",
+    ("h1_semi",): "h1_semi",
+    ("h1",): "l2 h1_semi h1",
+    ("energy",): "energy",
+    (): "",
+}
 
 
 @pytest.mark.parametrize("norms", ASKED)
@@ -225,7 +257,9 @@ def test_what_is_not_asked_is_not_computed(norms, monkeypatch):
 
 
 def test_unknown_norm():
-    with pytest.raises(SceneError, match="norms: unknown norm 'L2'; known: l2, h1_semi, h1, energy"):
+    with pytest.raises(
+        SceneError, match="norms: unknown norm 'L2'; known: l2, h1_semi, h1, energy"
+    ):
         ExactErrors(family("patch"), ["L2"])
 
 
@@ -237,7 +271,9 @@ def test_energy_norm_weighs_the_gradient():
     assert found["energy"] == found["h1_semi"]
     assert errors.of(mesh, "P1", u, np.full(32, 4.0))["energy"] == 2 * found["h1_semi"]
     for power in (-1000, 1000):
-        assert errors.of(mesh, "P1", u, np.full(32, 2.0**power))["energy"] == np.ldexp(found["h1_semi"], power // 2)
+        assert errors.of(mesh, "P1", u, np.full(32, 2.0**power))["energy"] == np.ldexp(
+            found["h1_semi"], power // 2
+        )
     weights = np.where(np.arange(32) < 16, 1.0, 0.0)
     halves = [errors.of(mesh, "P1", u, w)["energy"] for w in (weights, 1 - weights)]
     assert np.hypot(*halves) == pytest.approx(found["h1_semi"], rel=1e-14)
@@ -262,10 +298,15 @@ def test_numbering_does_not_matter(element, name):
     for one in (mesh, renumbered(mesh)):
         x, y = nodes(one, element)
         contact = find_element(element)
-        dofs = np.setdiff1d(contact.boundary_dofs(one, "contact"), contact.boundary_dofs(one, "dirichlet"))
+        dofs = np.setdiff1d(
+            contact.boundary_dofs(one, "contact"), contact.boundary_dofs(one, "dirichlet")
+        )
         at = contact.nodes(one, dofs)[0]
         solution = SimpleNamespace(u=np.sin(x + 2 * y), multiplier=np.cos(at), active=at < 0.2)
-        found.append(ExactErrors(exact).of(one, element, solution.u) | contact_errors(one, element, solution, exact))
+        found.append(
+            ExactErrors(exact).of(one, element, solution.u)
+            | contact_errors(one, element, solution, exact)
+        )
     assert found[1] == pytest.approx(found[0], rel=1e-12)
 
 
@@ -276,7 +317,10 @@ def test_powers_of_two_change_no_bit(element, k):
     for amplitude in (1.0, 2.0**k):
         exact = family("corner", {"amplitude": amplitude})
         solution = solve(problem_of(exact, mesh, element))
-        found.append(ExactErrors(exact).of(mesh, element, solution.u) | contact_errors(mesh, element, solution, exact))
+        found.append(
+            ExactErrors(exact).of(mesh, element, solution.u)
+            | contact_errors(mesh, element, solution, exact)
+        )
     point = found[0].pop("critical_points")
     assert found[1].pop("critical_points") == point
     assert found[1] == {key: np.ldexp(value, k) for key, value in found[0].items()}
@@ -293,7 +337,10 @@ def test_errors_scale_with_the_domain(element, scale):
     for length in (1.0, scale):
         exact, mesh = family("corner"), grid(8, origin=(-length / 3, 0.0), size=(length, length))
         solution = solve(problem_of(exact, mesh, element))
-        found.append(ExactErrors(exact).of(mesh, element, solution.u) | contact_errors(mesh, element, solution, exact))
+        found.append(
+            ExactErrors(exact).of(mesh, element, solution.u)
+            | contact_errors(mesh, element, solution, exact)
+        )
     for name, power in LENGTHS.items():
         assert found[1][name] == pytest.approx(found[0][name] * scale**power, rel=1e-10), name
 
@@ -313,13 +360,24 @@ def test_contact_norms_against_adaptive_quadrature(element, labels):
     trace = find_element(element).vertex_values(mesh, u)[:2, :3]
     total = 0.0
     for left, (a, b) in zip(mesh.x, trace.T, strict=False):
-        total += quad(lambda s, l=left, a=a, b=b: (max(l + h * s, 0) ** 1.5 - a - (b - a) * s) ** 2, 0, 1)[0] * h
+        total += (
+            quad(
+                lambda s, l=left, a=a, b=b: (max(l + h * s, 0) ** 1.5 - a - (b - a) * s) ** 2, 0, 1
+            )[0]
+            * h
+        )
     assert found["trace_l2"] == pytest.approx(np.sqrt(total), rel=1e-7)
     total = 0.0
     for center, lam in zip(x, force, strict=True):
         low, high = max(center - h / 2, mesh.x[0]), min(center + h / 2, mesh.x[-1])
         density = lam / (high - low)
-        total += quad(lambda s, c=density: (1.5 * max(-s, 0) ** 0.5 - c) ** 2, low, high, points=[0], limit=200)[0]
+        total += quad(
+            lambda s, c=density: (1.5 * max(-s, 0) ** 0.5 - c) ** 2,
+            low,
+            high,
+            points=[0],
+            limit=200,
+        )[0]
     assert found["multiplier_l2"] == pytest.approx(np.sqrt(total), rel=1e-7)
     assert found["critical_points"] == pytest.approx(1 / 6 if element == "P1" else 0.0, abs=1e-15)
 
@@ -332,8 +390,12 @@ def test_distance_of_critical_points(element):
     x = kind.nodes(mesh, dofs)[0]
 
     def distance(active, *points):
-        exact = read_exact({"u": "x", "critical_points": [(p, 0.0) for p in points], "singular_points": [[9, 9]]})
-        solution = SimpleNamespace(u=np.zeros(kind.size(mesh)), multiplier=np.zeros(x.size), active=active)
+        exact = read_exact(
+            {"u": "x", "critical_points": [(p, 0.0) for p in points], "singular_points": [[9, 9]]}
+        )
+        solution = SimpleNamespace(
+            u=np.zeros(kind.size(mesh)), multiplier=np.zeros(x.size), active=active
+        )
         return contact_errors(mesh, element, solution, exact)["critical_points"]
 
     cell, left = 1 / 12, x < -0.02
@@ -351,18 +413,24 @@ def test_a_single_cell(element):
     mesh, exact = grid(1), family("corner")
     found = contact_errors(mesh, element, solve(problem_of(exact, mesh, element)), exact)
     assert found["critical_points"] == np.inf
-    assert (found["multiplier_l2"] == 0.0) == (element == "P1")  # both vertices are Dirichlet: no multiplier
+    assert (found["multiplier_l2"] == 0.0) == (
+        element == "P1"
+    )  # both vertices are Dirichlet: no multiplier
 
 
 def test_no_contact_side():
     mesh = grid(4, labels=("dirichlet",) * 4)
-    solution = SimpleNamespace(u=np.zeros(25), multiplier=np.zeros(0), active=np.zeros(0, dtype=bool))
+    solution = SimpleNamespace(
+        u=np.zeros(25), multiplier=np.zeros(0), active=np.zeros(0, dtype=bool)
+    )
     found = contact_errors(mesh, "P1", solution, family("corner"))
     assert found == {"trace_l2": 0.0, "multiplier_l2": 0.0, "critical_points": None}
 
 
 class Rates:
-    """Expected orders, over four halvings of h: with a critical point off the nodes single ones swing by 0.2."""
+    """Expected orders, over four halvings of h: with a critical point off the nodes single ones
+    swing by 0.2.
+    """
 
     levels = (8, 16, 32, 64, 128)
     orders = {"l2": (2.0, 0.1), "h1_semi": (1.0, 0.1), "h1": (1.0, 0.1)}  # noqa: RUF012
@@ -412,7 +480,9 @@ class TestBiactive(Rates):
 
 
 @elements
-@pytest.mark.parametrize(("point", "refused"), [([0.2, 0.0], False), ([0.2, 0.5], True), ([7.0, 0.0], True)])
+@pytest.mark.parametrize(
+    ("point", "refused"), [([0.2, 0.0], False), ([0.2, 0.5], True), ([7.0, 0.0], True)]
+)
 def test_critical_points_off_the_contact_part_are_no_silent_dash(element, point, refused):
     mesh, truth = grid(4, labels=FREE), {"kind": "exact", "u": "1 - y", "critical_points": [point]}
     mapping = {"domain": {}, "boundary": {}, "data": {}, "load_quadrature": "exact", "truth": truth}
@@ -420,13 +490,18 @@ def test_critical_points_off_the_contact_part_are_no_silent_dash(element, point,
     contact = kind.boundary_dofs(mesh, "contact")
     proof = {"accuracy": 0.0, "multiplier_accuracy": 0.0, "residual": 0.0}
     u, active = np.ones(kind.size(mesh)), kind.nodes(mesh, contact)[0] < 0.1
-    found = SimpleNamespace(element=element, n=4, u=u, multiplier=1.0 * active, active=active, **proof)
+    found = SimpleNamespace(
+        element=element, n=4, u=u, multiplier=1.0 * active, active=active, **proof
+    )
     errors = against_exact(
-        ProblemStatement.from_mapping(mapping), SimpleNamespace(level=lambda n: mesh), ["l2", "critical_points"]
+        ProblemStatement.from_mapping(mapping),
+        SimpleNamespace(level=lambda n: mesh),
+        ["l2", "critical_points"],
     )
     if refused:
         with pytest.raises(
-            SceneError, match=r"critical_points needs exact ones on the contact part, but \(.*\) lie off"
+            SceneError,
+            match=r"critical_points needs exact ones on the contact part, but \(.*\) lie off",
         ):
             errors(found)
     else:

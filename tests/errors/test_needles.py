@@ -1,4 +1,6 @@
-"""Quadrature on needles: their boxes cover them, right values on graded meshes, and a bound on the number of points."""
+"""Quadrature on needles: their boxes cover them, right values on graded meshes, and a bound on the
+number of points.
+"""
 
 import numpy as np
 import pytest
@@ -73,14 +75,17 @@ def test_norms_on_needles_against_polar_coordinates(exponent, element):
     found = ExactErrors(family("corner")).of(mesh, element, 0.3 - 0.5 * x + 0.25 * y)
 
     def squared_value(r, theta):
-        return (r**1.5 * np.cos(1.5 * theta) - 0.3 + 0.5 * r * np.cos(theta) - 0.25 * r * np.sin(theta)) ** 2
+        return (
+            r**1.5 * np.cos(1.5 * theta) - 0.3 + 0.5 * r * np.cos(theta) - 0.25 * r * np.sin(theta)
+        ) ** 2
 
     def squared_slope(r, theta):
         root = 1.5 * np.sqrt(r)
         return (root * np.cos(theta / 2) + 0.5) ** 2 + (root * np.sin(theta / 2) + 0.25) ** 2
 
     for norm, density in (("l2", squared_value), ("h1_semi", squared_slope)):
-        # CR's gradient on a needle is a difference of values that nearly agree, over its width: round-off shows.
+        # CR's gradient on a needle is a difference of values that nearly agree, over its width:
+        # round-off shows.
         rel = 1e-8 if element == "P1" or exponent < 7 else 1e-6
         assert found[norm] == pytest.approx(np.sqrt(Polar().integral(density)), rel=rel)
 
@@ -103,7 +108,8 @@ class Counted(ExactSolution):
 
 @pytest.mark.parametrize("exponent", [1, 2, 4, 6, 8, 10])
 def test_a_graded_mesh_costs_few_points(exponent):
-    """8 by 8 cells take 57,344 points wherever the singularity lies; at exponents 6 to 10 it adds as many again.
+    """8 by 8 cells take 57,344 points wherever the singularity lies; at exponents 6 to 10 it adds
+    as many again.
 
     Quarters took 0.9 million points at exponent 4, 23.5 million at 6, and gigabytes at 8.
     """
@@ -113,7 +119,9 @@ def test_a_graded_mesh_costs_few_points(exponent):
 
 
 def test_errors_on_needles_do_not_depend_on_where_quadrature_is_cut(monkeypatch):
-    """The accuracy that errors/exact.py states, against boxes and triangles of a finer grading and higher degree."""
+    """The accuracy that errors/exact.py states, against boxes and triangles of a finer grading and
+    higher degree.
+    """
     from signorini.errors import graded as grading
     from signorini.errors import needles, pieces
     from signorini.fem.quadrature import interval_rule, triangle_rule

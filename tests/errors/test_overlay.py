@@ -1,4 +1,6 @@
-"""Errors on the common refinement of two cuts of a rectangle: by looking up every point, by counts, and by nesting."""
+"""Errors on the common refinement of two cuts of a rectangle: by looking up every point, by counts,
+and by nesting.
+"""
 
 import numpy as np
 import pytest
@@ -29,7 +31,9 @@ def random_function(mesh, name, seed):
 
 
 def brute_force(fine, reference, coarse, solution, n):
-    """Exact norms on all quarters of n by n cells, both functions evaluated by looking every point up."""
+    """Exact norms on all quarters of n by n cells, both functions evaluated by looking every point
+    up.
+    """
     cut = criss_cross(n, n, *BOX)
     basis = Basis(MeshTri(cut.p, cut.t), ElementTriP0(), intorder=2)
     x, y = np.asarray(basis.global_coordinates()).reshape(2, -1)
@@ -45,7 +49,10 @@ def brute_force(fine, reference, coarse, solution, n):
 def test_brute_force_agrees_for_every_pair_of_diagonals(of_fine, of_coarse, fine, coarse):
     meshes = level(of_fine, fine), level(of_coarse, coarse)
     for k, name in enumerate(ELEMENTS):
-        reference, solution = random_function(meshes[0], "P1", 1 + k), random_function(meshes[1], name, 3 + k)
+        reference, solution = (
+            random_function(meshes[0], "P1", 1 + k),
+            random_function(meshes[1], name, 3 + k),
+        )
         expected = brute_force(meshes[0], reference, meshes[1], solution, fine)
         found = Overlay(*meshes).errors(reference, solution)["exact"]
         assert found == pytest.approx(expected, rel=1e-12)
@@ -54,7 +61,9 @@ def test_brute_force_agrees_for_every_pair_of_diagonals(of_fine, of_coarse, fine
 @pytest.mark.parametrize("diagonal", DIAGONALS)
 @pytest.mark.parametrize(("n", "ratio"), [(1, 2), (2, 4), (3, 2), (4, 8)])
 def test_which_families_nest(diagonal, n, ratio):
-    """Under doubling, all but the alternating one whose even cells fall: there all coarse diagonals cut triangles."""
+    """Under doubling, all but the alternating one whose even cells fall: there all coarse diagonals
+    cut triangles.
+    """
     fine, m = level(diagonal, ratio * n), ratio * n
     count = Overlay(fine, level(diagonal, n)).area.size
     assert count - fine.number_of_triangles == (0 if diagonal in NESTING else 2 * n * m)
@@ -67,14 +76,18 @@ def test_on_nested_grids_it_is_the_error_against_a_reference(diagonal, name, rul
     fine, coarse = level(diagonal, 8), level(diagonal, 2)
     reference, solution = random_function(fine, "P1", 1), random_function(coarse, name, 2)
     expected = ReferenceErrors(fine, *reference, quadrature=rule).of(coarse, *solution)
-    assert Overlay(fine, coarse).errors(reference, solution, RULES)[rule] == pytest.approx(expected, rel=1e-13)
+    assert Overlay(fine, coarse).errors(reference, solution, RULES)[rule] == pytest.approx(
+        expected, rel=1e-13
+    )
 
 
 @pytest.mark.parametrize("of_coarse", DIAGONALS)
 @pytest.mark.parametrize("of_fine", DIAGONALS)
 def test_midpoints_are_exact_and_the_other_rules_are_not(of_fine, of_coarse):
     fine, coarse = level(of_fine, 4), level(of_coarse, 2)
-    found = Overlay(fine, coarse).errors(random_function(fine, "P1", 1), random_function(coarse, "CR", 2), RULES)
+    found = Overlay(fine, coarse).errors(
+        random_function(fine, "P1", 1), random_function(coarse, "CR", 2), RULES
+    )
     l2 = {rule: norms["l2"] for rule, norms in found.items()}
     assert l2["midpoints"] == pytest.approx(l2["exact"], rel=1e-14)
     assert l2["centroid"] < 0.99 * l2["exact"] < 1.01 * l2["exact"] < l2["vertices"]
@@ -82,14 +95,20 @@ def test_midpoints_are_exact_and_the_other_rules_are_not(of_fine, of_coarse):
 
 
 def test_a_rule_sees_the_pieces_of_a_triangle_that_is_cut():
-    """u = 0 on a rising cell, v the hat of a criss-cross one: four quarters, with 0, 0 and 1 at their corners."""
+    """u = 0 on a rising cell, v the hat of a criss-cross one: four quarters, with 0, 0 and 1 at
+    their corners.
+    """
     sides = dict.fromkeys(SIDES, "dirichlet")
-    fine, coarse = (Rectangle((0, 0), (1, 1), d, "per-side", sides).level(1) for d in ("rising", "criss-cross"))
+    fine, coarse = (
+        Rectangle((0, 0), (1, 1), d, "per-side", sides).level(1) for d in ("rising", "criss-cross")
+    )
     overlay = Overlay(fine, coarse)
     found = overlay.errors(("P1", np.zeros(4)), ("P1", np.array([0.0, 0, 0, 0, 1])), RULES)
     assert overlay.area == pytest.approx([0.25] * 4)
     squares = {rule: norms["l2"] ** 2 for rule, norms in found.items()}
-    assert squares == pytest.approx({"exact": 1 / 6, "midpoints": 1 / 6, "centroid": 1 / 9, "vertices": 1 / 3})
+    assert squares == pytest.approx(
+        {"exact": 1 / 6, "midpoints": 1 / 6, "centroid": 1 / 9, "vertices": 1 / 3}
+    )
     assert found["exact"]["h1_semi"] == pytest.approx(2.0)
 
 
@@ -106,8 +125,16 @@ def test_powers_of_two_pass_through_unrounded(power):
 @pytest.mark.parametrize(
     ("fine", "coarse", "message"),
     [
-        (lambda: level("falling", 4), lambda: level("falling", 3), "4 by 4 cells do not refine 3 by 3"),
-        (lambda: level("falling", 2), lambda: level("rising", 4), "2 by 2 cells do not refine 4 by 4"),
+        (
+            lambda: level("falling", 4),
+            lambda: level("falling", 3),
+            "4 by 4 cells do not refine 3 by 3",
+        ),
+        (
+            lambda: level("falling", 2),
+            lambda: level("rising", 4),
+            "2 by 2 cells do not refine 4 by 4",
+        ),
         (lambda: grid(4), lambda: level("falling", 2), "4 by 4 cells do not refine 2 by 2"),
         (lambda: perturbed(4), lambda: grid(2), "32 triangles are not 4 by 4 cells"),
     ],

@@ -20,7 +20,11 @@ from signorini.formula import Formula
 from signorini.solvers import solve
 
 
-@given(st.floats(-3, 5), st.floats(1e-100, 1e100), st.lists(st.floats(0.1, 0.9), min_size=1, max_size=8))
+@given(
+    st.floats(-3, 5),
+    st.floats(1e-100, 1e100),
+    st.lists(st.floats(0.1, 0.9), min_size=1, max_size=8),
+)
 def test_powers_have_their_exponent_for_a_slope(exponent, factor, ratios):
     h = np.cumprod([1.0, *ratios])
     found = slopes(h, factor * h**exponent)
@@ -38,12 +42,16 @@ def test_the_mean_of_halved_sizes_is_the_slope_between_the_end_points():
 def test_the_fit_is_the_least_squares_line():
     rng = np.random.default_rng(0)
     h, errors = np.sort(rng.random(6))[::-1], rng.random(6)
-    assert slopes(h, errors)["fit"] == pytest.approx(np.polyfit(np.log(h), np.log(errors), 1)[0], rel=1e-12)
+    assert slopes(h, errors)["fit"] == pytest.approx(
+        np.polyfit(np.log(h), np.log(errors), 1)[0], rel=1e-12
+    )
 
 
 def test_mean_and_fit_differ_where_the_points_are_on_no_line():
     found = slopes([1, 0.5, 0.25], [1.0, 0.9, 0.1])
-    assert abs(found["mean"] - found["fit"]) < 1e-12  # symmetric: three halved sizes weigh the ends alone
+    assert (
+        abs(found["mean"] - found["fit"]) < 1e-12
+    )  # symmetric: three halved sizes weigh the ends alone
     found = slopes([1, 0.5, 0.25, 0.125], [1.0, 0.9, 0.1, 0.09])
     assert abs(found["mean"] - found["fit"]) > 0.1
 
@@ -56,7 +64,9 @@ def test_a_slope_needs_two_levels(h):
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])
 def test_an_error_without_logarithm_is_named(bad):
-    with pytest.raises(SignoriniError, match=r"rates: the error at h = 0\.25 is .*, which has no logarithm"):
+    with pytest.raises(
+        SignoriniError, match=r"rates: the error at h = 0\.25 is .*, which has no logarithm"
+    ):
         slopes([0.5, 0.25], [0.1, bad])
 
 
@@ -65,7 +75,8 @@ def errors_of(**columns):
     known = {"floor": [""] * 4} | columns
     length = len(next(iter(columns.values())))
     return [
-        {"element": "P1", "n": 2**k, "h": 0.5**k} | {name: column[k] for name, column in known.items()}
+        {"element": "P1", "n": 2**k, "h": 0.5**k}
+        | {name: column[k] for name, column in known.items()}
         for k in range(length)
     ]
 
@@ -77,14 +88,18 @@ def test_distances_of_critical_points_have_slopes():
 
 
 @pytest.mark.parametrize("bad", [0.0, float("inf")])
-def test_a_distance_that_is_zero_or_for_want_of_a_point_infinite_has_none_and_takes_none_from_other_norms(bad):
+def test_a_distance_that_is_zero_or_for_want_of_a_point_infinite_has_none_and_takes_none_from_other_norms(
+    bad,
+):
     found = rate_rows(errors_of(l2=[0.4, 0.1, 0.025], critical_points=[0.4, bad, 0.1]))
     slope = {(row["norm"], row["floor"]): row["slope"] for row in found if row["kind"] == "mean"}
     assert slope == {("l2", "0"): pytest.approx(2.0), ("critical_points", "zero"): None}
 
 
 def test_a_solution_that_is_the_reference_has_no_slope_in_any_norm():
-    found = rate_rows(errors_of(l2=[0.4, 0.1, 0.0], h1=[4.0, 2.0, 0.0], floor=["", "", "reference"]))
+    found = rate_rows(
+        errors_of(l2=[0.4, 0.1, 0.0], h1=[4.0, 2.0, 0.0], floor=["", "", "reference"])
+    )
     assert {(row["norm"], row["slope"], row["floor"]) for row in found} == {
         ("l2", None, "reference"),
         ("h1", None, "reference"),
@@ -92,22 +107,42 @@ def test_a_solution_that_is_the_reference_has_no_slope_in_any_norm():
 
 
 def test_a_reference_below_four_times_the_finest_level_is_said_to_bend_the_last_slope():
-    twice = reference_note({"kind": "reference", "n": 64, "element": "P1"}, [4, 8, 16, 32], ["P1", "CR"])
+    twice = reference_note(
+        {"kind": "reference", "n": 64, "element": "P1"}, [4, 8, 16, 32], ["P1", "CR"]
+    )
     assert "n = 64, is only 2 times as fine as the finest level" in twice
-    assert "errors of P1 are about 25 % too small in L2 and 13 % in H1, and the last slope about 0.32 and 0.16" in twice
-    assert "the last slope of CR is up to 0.23 too low in L2 and 0.12 in H1; n = 128 or more" in twice
+    assert (
+        "errors of P1 are about 25 % too small in L2 and 13 % in H1, and the last slope about 0.32 and 0.16"
+        in twice
+    )
+    assert (
+        "the last slope of CR is up to 0.23 too low in L2 and 0.12 in H1; n = 128 or more" in twice
+    )
     same = reference_note({"kind": "reference", "n": 32, "element": "CR"}, [16, 32], ["CR"])
-    assert "no finer than the finest level: there CR is the reference itself and has neither error nor slope" in same
+    assert (
+        "no finer than the finest level: there CR is the reference itself and has neither error nor slope"
+        in same
+    )
     assert "P1" not in same
-    for truth in ({"kind": "reference", "n": 128, "element": "P1"}, {"kind": "exact"}, {"kind": "none"}):
+    for truth in (
+        {"kind": "reference", "n": 128, "element": "P1"},
+        {"kind": "exact"},
+        {"kind": "none"},
+    ):
         assert reference_note(truth, [16, 32], ["P1"]) is None
 
 
 @pytest.mark.parametrize("own", ELEMENTS)
 def test_what_a_reference_does_to_the_last_slope_is_what_the_note_says(own):
-    """On the paper's problem, levels 16 and 32, the last slope against n = 64 less that against n = 512."""
+    """On the paper's problem, levels 16 and 32, the last slope against n = 64 less that against n =
+    512.
+    """
     asked = statement(f="2*pi*sin(2*pi*x)", load_quadrature="centroid")
-    solved = {(e, n): solve(discretize_on(grid(n), e, asked)).u for e in ELEMENTS for n in (16, 32, 64, 512)}
+    solved = {
+        (e, n): solve(discretize_on(grid(n), e, asked)).u
+        for e in ELEMENTS
+        for n in (16, 32, 64, 512)
+    }
     last = {}
     for n in (64, 512):
         truth = ReferenceErrors(grid(n), own, solved[own, n], ["l2", "h1_semi"])
@@ -124,7 +159,9 @@ def test_what_a_reference_does_to_the_last_slope_is_what_the_note_says(own):
 
 
 class Convergence:
-    """An exact solution u >= obstacle with its rates; the data follow from u on the unit square of Section 5."""
+    """An exact solution u >= obstacle with its rates; the data follow from u on the unit square of
+    Section 5.
+    """
 
     tolerance = 0.1
     levels = (16, 32, 64)  # with no critical point on a vertex or midpoint
@@ -150,12 +187,16 @@ class Convergence:
             "l2": (u - points.T @ values) ** 2,
             "h1_semi": (ux - gradient[0]) ** 2 + (uy - gradient[1]) ** 2,
         }
-        return {norm: np.sqrt(mesh.area * np.sum(weights @ square)) for norm, square in squares.items()}
+        return {
+            norm: np.sqrt(mesh.area * np.sum(weights @ square)) for norm, square in squares.items()
+        }
 
     def discrete(self, element, mesh):
         u = Formula(self.u)
         plain = statement(obstacle=self.obstacle)
-        return discretize_on(mesh, element, replace(plain, data=replace(plain.data, f=Load(u), g=Flux(u))))
+        return discretize_on(
+            mesh, element, replace(plain, data=replace(plain.data, f=Load(u), g=Flux(u)))
+        )
 
 
 class Load:
@@ -178,7 +219,9 @@ class Flux(Load):
 
 
 class TestSmooth(Convergence):
-    """E4: contact for x > 1/2 is lost where u lifts as a cubic, and pressed as a cubic on the other side."""
+    """E4: contact for x > 1/2 is lost where u lifts as a cubic, and pressed as a cubic on the other
+    side.
+    """
 
     u = "(0.1*sin(3*x) + 8*pos(x - 0.5)**3)*(1 - y**2) - y*(1 - y)*8*pos(0.5 - x)**3"
     obstacle = "0.1*sin(3*x)"
@@ -203,7 +246,8 @@ class TestGap(Convergence):
 
 
 class TestSingular(Convergence):
-    """E1: the generic critical point, du/dnu ~ r^(1/2), here at x = 1/3, in the same place of its cell at both ends.
+    """E1: the generic critical point, du/dnu ~ r^(1/2), here at x = 1/3, in the same place of its
+    cell at both ends.
 
     u is in H^(5/2) up to an epsilon only, and still both rates are whole.
     """
@@ -214,4 +258,6 @@ class TestSingular(Convergence):
 
     def discrete(self, element, mesh):
         plain = statement(dirichlet=self.u)
-        return discretize_on(mesh, element, replace(plain, data=replace(plain.data, g=Flux(Formula(self.u)))))
+        return discretize_on(
+            mesh, element, replace(plain, data=replace(plain.data, g=Flux(Formula(self.u))))
+        )

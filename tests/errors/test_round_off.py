@@ -20,15 +20,33 @@ from signorini.report.expectations import check_expectations
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
 
-SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+SQUARE = {
+    "kind": "rectangle",
+    "origin": [0, 0],
+    "size": [1, 1],
+    "diagonal": "falling",
+    "cells": "per-unit",
+}
 SIDES = dict(zip(("bottom", "right", "top", "left"), PAPER, strict=True))
 DOMAIN = ("l2", "h1_semi", "h1", "energy")
 INTEGRALS = (*DOMAIN, "trace_l2", "multiplier_l2")
 
 
 def exact(**truth):
-    truth = {"kind": "exact", "critical_points": [], "singular_points": [], "parameters": {}} | truth
-    return {"domain": SQUARE, "boundary": SIDES, "data": {}, "load_quadrature": "exact", "truth": truth, "coarsest": 2}
+    truth = {
+        "kind": "exact",
+        "critical_points": [],
+        "singular_points": [],
+        "parameters": {},
+    } | truth
+    return {
+        "domain": SQUARE,
+        "boundary": SIDES,
+        "data": {},
+        "load_quadrature": "exact",
+        "truth": truth,
+        "coarsest": 2,
+    }
 
 
 def measured(mapping, element, n, method="auto", norms=INTEGRALS):
@@ -43,7 +61,9 @@ def measured(mapping, element, n, method="auto", norms=INTEGRALS):
 def stored(problem, solution, n):
     names = ("u", "multiplier", "active", "accuracy", "multiplier_accuracy", "residual")
     parts = {name: getattr(solution, name) for name in names}
-    return SimpleNamespace(element=problem.element, n=n, contact=problem.contact, lower=problem.lower, **parts)
+    return SimpleNamespace(
+        element=problem.element, n=n, contact=problem.contact, lower=problem.lower, **parts
+    )
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
@@ -67,14 +87,22 @@ DRAWN = [("bottom",), ("bottom", "left")]
 def graded(exponent, towards, **truth):
     """An exact scene on a mesh of needles; by itself its truth is smooth and free of contact."""
     mapping = exact(**truth or {"u": "1 + 0.3*sin(3*x)*(1 + y**2)"})
-    drawn = SQUARE | {"cells": "per-side", "grade": {"towards": list(towards), "exponent": exponent}}
-    return mapping | {"domain": drawn, "boundary": SIDES | {"right": "dirichlet", "left": "dirichlet"}}
+    drawn = SQUARE | {
+        "cells": "per-side",
+        "grade": {"towards": list(towards), "exponent": exponent},
+    }
+    return mapping | {
+        "domain": drawn,
+        "boundary": SIDES | {"right": "dirichlet", "left": "dirichlet"},
+    }
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("exponent", [2, 4, 6, 8, 10])
 @pytest.mark.parametrize("towards", DRAWN, ids="-".join)
-def test_on_graded_meshes_the_errors_of_the_patch_test_alone_are_round_off(element, exponent, towards):
+def test_on_graded_meshes_the_errors_of_the_patch_test_alone_are_round_off(
+    element, exponent, towards
+):
     for n in (4, 16):
         found = measured(graded(exponent, towards, family="patch"), element, n, "direct")
         assert found["floor"].split() == list(INTEGRALS)
@@ -83,9 +111,13 @@ def test_on_graded_meshes_the_errors_of_the_patch_test_alone_are_round_off(eleme
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("mapping", [graded(8, ["bottom"]), exact(family="corner", parameters={"x0": "1/3"})])
+@pytest.mark.parametrize(
+    "mapping", [graded(8, ["bottom"]), exact(family="corner", parameters={"x0": "1/3"})]
+)
 def test_an_accuracy_that_errs_on_the_safe_side_stars_no_sound_error(element, mapping):
-    """A route may take its error for a thousand times what it is: the mesh resolves no more of u, whatever it says."""
+    """A route may take its error for a thousand times what it is: the mesh resolves no more of u,
+    whatever it says.
+    """
     asked, norms = ProblemStatement.from_mapping(mapping), (*DOMAIN, "trace_l2")
     errors, found = against_exact(asked, asked.triangulations, norms), []
     for n in (8, 16):
@@ -101,11 +133,20 @@ def test_an_accuracy_that_errs_on_the_safe_side_stars_no_sound_error(element, ma
 
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_against_a_reference_round_off_is_told_by_what_the_mesh_resolves_of_it(element):
-    """An affine solution is round-off; another is not even where the accuracy is far too careful; itself is zero."""
+    """An affine solution is round-off; another is not even where the accuracy is far too careful;
+    itself is zero.
+    """
     for data, expected in (({"dirichlet": 1}, list(DOMAIN)), ({"f": "8*sin(5*x) - 4"}, [])):
         asked = statement(**data)
-        reference, found = (stored(p, solve(p), p.mesh.nx) for p in (discretize(asked, element, n) for n in (32, 8)))
-        assert against_reference(reference, asked.triangulations, DOMAIN, "exact")(found)["floor"].split() == expected
+        reference, found = (
+            stored(p, solve(p), p.mesh.nx) for p in (discretize(asked, element, n) for n in (32, 8))
+        )
+        assert (
+            against_reference(reference, asked.triangulations, DOMAIN, "exact")(found)[
+                "floor"
+            ].split()
+            == expected
+        )
         found.accuracy = 0.1
         errors = against_reference(reference, asked.triangulations, DOMAIN, "exact")
         assert errors(found)["floor"].split() == expected
@@ -117,7 +158,9 @@ def test_against_a_reference_round_off_is_told_by_what_the_mesh_resolves_of_it(e
 @pytest.mark.parametrize("name", ["smooth", "corner"])
 @pytest.mark.parametrize("mesh", [grid(16), delaunay(3)], ids=["grid", "delaunay"])
 def test_no_discrete_function_comes_closer_than_what_a_mesh_cannot_resolve(name, mesh):
-    """Not the best of them either, in l2 and in the seminorm that of least squares on each triangle."""
+    """Not the best of them either, in l2 and in the seminorm that of least squares on each
+    triangle.
+    """
     truth, k = family(name), np.linspace(1, 9, mesh.number_of_triangles)
     lost = unresolved(mesh, truth, DOMAIN, k)
     errors = ExactErrors(truth, DOMAIN)
@@ -126,12 +169,18 @@ def test_no_discrete_function_comes_closer_than_what_a_mesh_cannot_resolve(name,
         found = errors.of(mesh, element, truth.value(*nodes), k)
         assert all(0.1 * found[norm] < lost[norm] < 1.02 * found[norm] for norm in DOMAIN)
     assert lost["h1"] == pytest.approx(np.hypot(lost["l2"], lost["h1_semi"]))
-    assert unresolved(mesh, truth, ["energy"], 4 + 0 * k)["energy"] == pytest.approx(2 * lost["h1_semi"])
+    assert unresolved(mesh, truth, ["energy"], 4 + 0 * k)["energy"] == pytest.approx(
+        2 * lost["h1_semi"]
+    )
 
 
 def test_what_a_mesh_cannot_resolve_of_a_parabola_is_known():
-    """On the two triangles of a square of side h, |x^2 - Pi|^2 by hand: h^6/300 in l2, 2 h^4/9 in the seminorm."""
-    lost = unresolved(grid(1, size=(2.0, 2.0)), read_exact({"u": "x**2"}), ["l2", "h1_semi", "trace_l2"])
+    """On the two triangles of a square of side h, |x^2 - Pi|^2 by hand: h^6/300 in l2, 2 h^4/9 in
+    the seminorm.
+    """
+    lost = unresolved(
+        grid(1, size=(2.0, 2.0)), read_exact({"u": "x**2"}), ["l2", "h1_semi", "trace_l2"]
+    )
     assert lost["l2"] == pytest.approx(np.sqrt(2.0**6 / 300))
     assert lost["h1_semi"] == pytest.approx(np.sqrt(2 * 2.0**4 / 9))
     assert lost["trace_l2"] == pytest.approx(np.sqrt(2.0**5 / 180))
@@ -140,7 +189,9 @@ def test_what_a_mesh_cannot_resolve_of_a_parabola_is_known():
 
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_each_norm_is_judged_by_itself(element):
-    """A uniform load in full contact: of P1 the trace is exact, of CR the contact force, and nothing else."""
+    """A uniform load in full contact: of P1 the trace is exact, of CR the contact force, and
+    nothing else.
+    """
     found = measured(exact(family="uniform-load", parameters={"c": 1, "alpha": 1}), element, 64)
     assert found["floor"] == {"P1": "trace_l2", "CR": "multiplier_l2"}[element]
 
@@ -156,10 +207,18 @@ def test_a_rounding_of_every_unknown_is_below_the_floor_and_a_visible_error_abov
     domain = SimpleNamespace(level=lambda n: mesh)
     floors = norm_floors(mesh, RoundOff(1.0, 1.0), DOMAIN, k)
     assert list(floors) == list(DOMAIN)
-    exactly = {"accuracy": 0.0, "multiplier_accuracy": 0.0, "residual": 0.0, "multiplier": np.zeros(0)}
+    exactly = {
+        "accuracy": 0.0,
+        "multiplier_accuracy": 0.0,
+        "residual": 0.0,
+        "multiplier": np.zeros(0),
+    }
 
     def at_floor(change):
-        pair = [SimpleNamespace(element=element, n=n, u=u, **exactly) for n, u in ((2, truth), (1, truth + change))]
+        pair = [
+            SimpleNamespace(element=element, n=n, u=u, **exactly)
+            for n, u in ((2, truth), (1, truth + change))
+        ]
         return against_reference(pair[0], domain, DOMAIN, "exact")(pair[1])["floor"]
 
     noise = rng.uniform(-1, 1, truth.size)
@@ -169,13 +228,18 @@ def test_a_rounding_of_every_unknown_is_below_the_floor_and_a_visible_error_abov
 
 def test_floors_have_the_units_of_their_norms():
     """Under other units of length, of u and of the coefficient each scales as its norm does."""
-    plain, long = (norm_floors(grid(8, size=(s, s)), RoundOff(1.0, 1e-15), INTEGRALS) for s in (1.0, 4.0))
+    plain, long = (
+        norm_floors(grid(8, size=(s, s)), RoundOff(1.0, 1e-15), INTEGRALS) for s in (1.0, 4.0)
+    )
     assert long == {
-        norm: plain[norm] * {"l2": 4.0, "trace_l2": 2.0, "multiplier_l2": 0.5}.get(norm, 1.0) for norm in plain
+        norm: plain[norm] * {"l2": 4.0, "trace_l2": 2.0, "multiplier_l2": 0.5}.get(norm, 1.0)
+        for norm in plain
     } | {"h1": pytest.approx(np.hypot(4 * plain["l2"], plain["h1_semi"]))}
     stiff = norm_floors(grid(8), RoundOff(3.0, 3e-15), INTEGRALS, np.full(128, 4.0))
     factor = {"energy": 6.0, "multiplier_l2": 12.0}
-    assert stiff == pytest.approx({norm: factor.get(norm, 3.0) * plain[norm] for norm in plain}, rel=1e-15)
+    assert stiff == pytest.approx(
+        {norm: factor.get(norm, 3.0) * plain[norm] for norm in plain}, rel=1e-15
+    )
 
 
 def test_an_accuracy_is_of_the_variation_and_rounding_of_the_size():
@@ -190,11 +254,17 @@ def test_an_accuracy_is_of_the_variation_and_rounding_of_the_size():
 
 
 def rows(*errors, floor=""):
-    return [{"element": "P1", "n": 2**k, "h": 0.5**k, "l2": e, "floor": floor} for k, e in enumerate(errors)]
+    return [
+        {"element": "P1", "n": 2**k, "h": 0.5**k, "l2": e, "floor": floor}
+        for k, e in enumerate(errors)
+    ]
 
 
 def test_a_slope_is_flagged_where_an_error_is_round_off():
-    clean, flagged = rate_rows(rows(0.4, 0.1)), rate_rows([*rows(0.4, 0.1)[:1], *rows(0.4, 0.1, floor="h1 l2")[1:]])
+    clean, flagged = (
+        rate_rows(rows(0.4, 0.1)),
+        rate_rows([*rows(0.4, 0.1)[:1], *rows(0.4, 0.1, floor="h1 l2")[1:]]),
+    )
     expected = {"element": "P1", "norm": "l2", "slope": pytest.approx(2.0)}
     assert clean == [expected | {"kind": kind, "floor": "0"} for kind in ("mean", "fit")]
     assert flagged == [row | {"floor": "1"} for row in clean]
@@ -202,7 +272,8 @@ def test_a_slope_is_flagged_where_an_error_is_round_off():
 
 def test_case_13_an_error_of_zero_has_no_slope():
     assert rate_rows(rows(0.4, 0.0, floor="l2")) == [
-        {"element": "P1", "norm": "l2", "kind": kind, "slope": None, "floor": "1"} for kind in ("mean", "fit")
+        {"element": "P1", "norm": "l2", "kind": kind, "slope": None, "floor": "1"}
+        for kind in ("mean", "fit")
     ]
     with pytest.raises(SignoriniError, match=r"the error at h = 0\.5 is 0, which has no logarithm"):
         rate_rows(rows(0.4, 0.0))
@@ -213,5 +284,8 @@ def test_a_slope_of_round_off_is_not_what_a_scene_expects():
     found = {"element": "P1", "norm": "l2", "slope": 2.0, "floor": "0"}
     assert check_expectations(expected, [], [found], "errors.csv") == "as expected: P1 l2 2.00"
     for slope in (2.0, None):
-        with pytest.raises(SignoriniError, match="P1 l2 errors are round-off and have no slope, expect errors_below"):
+        with pytest.raises(
+            SignoriniError,
+            match="P1 l2 errors are round-off and have no slope, expect errors_below",
+        ):
             check_expectations(expected, [], [found | {"slope": slope, "floor": "1"}], "errors.csv")

@@ -1,4 +1,6 @@
-"""Truths that are no solutions are refused by balance and signs, on samples that no level decides; others pass."""
+"""Truths that are no solutions are refused by balance and signs, on samples that no level decides;
+others pass.
+"""
 
 import time
 from pathlib import Path
@@ -20,11 +22,19 @@ from signorini.scene.statement import ProblemStatement
 SCENES = sorted((Path(__file__).parents[2] / "config/scenes").glob("*.yaml"))
 EXACT = [path for path in SCENES if "kind: exact" in path.read_text(encoding="utf-8")]
 HELD = {"bottom": "dirichlet", "right": "dirichlet", "top": "dirichlet", "left": "dirichlet"}
-RECTANGLE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+RECTANGLE = {
+    "kind": "rectangle",
+    "origin": [0, 0],
+    "size": [1, 1],
+    "diagonal": "falling",
+    "cells": "per-unit",
+}
 
 
 def statement(u, boundary=None, data=None, domain=None, coarsest=2, **truth):
-    """The statement of a scene on the unit square with an exact truth, held on all sides unless said."""
+    """The statement of a scene on the unit square with an exact truth, held on all sides unless
+    said.
+    """
     return ProblemStatement.from_mapping(
         {
             "domain": RECTANGLE | (domain or {}),
@@ -39,9 +49,21 @@ def statement(u, boundary=None, data=None, domain=None, coarsest=2, **truth):
 
 # u, diffusion coefficient, what the message says: a line load or a jump that the load lacks.
 REFUSED = {
-    "kink between points": ("1 + abs(x - 0.37)", "1", r"du/dnu .* jumps from -1 to 1 near \(x, y\) = \(0.37, "),
-    "kink on facets": ("1 + abs(x - 0.5)", "1", r"du/dnu .* jumps from -1 to 1 near \(x, y\) = \(0.5, "),
-    "kink on facets across": ("1 + abs(y - 0.25)", "1", r"du/dnu .* jumps from -1 to 1 near .*, 0.25\);"),
+    "kink between points": (
+        "1 + abs(x - 0.37)",
+        "1",
+        r"du/dnu .* jumps from -1 to 1 near \(x, y\) = \(0.37, ",
+    ),
+    "kink on facets": (
+        "1 + abs(x - 0.5)",
+        "1",
+        r"du/dnu .* jumps from -1 to 1 near \(x, y\) = \(0.5, ",
+    ),
+    "kink on facets across": (
+        "1 + abs(y - 0.25)",
+        "1",
+        r"du/dnu .* jumps from -1 to 1 near .*, 0.25\);",
+    ),
     "kink on diagonals": ("abs(x + y - 1)", "1", "du/dnu .* jumps from -1.41421 to 1.41421"),
     "kink on the other diagonal": ("abs(x - y)", "1", "du/dnu .* jumps from -1.41421 to 1.41421"),
     "weak kink": ("x + 1e-3*abs(x - 0.37)", "1", "du/dnu .* jumps from 0.999 to 1.001"),
@@ -49,15 +71,31 @@ REFUSED = {
     "small cone": ("pos(0.02 - hypot(x - 0.4, y - 0.6))", "1", "du/dnu .* jumps"),
     "tiny bowl": ("pos(hypot(x - 0.4, y - 0.6) - 0.001)", "1", "du/dnu .* jumps"),
     "jump": ("x + step(y - 0.4)", "1", r"u of the exact solution jumps from .* near .*, 0.4\);"),
-    "small jump": ("x + 1e-3*step(y - 0.4)", "1", r"u of the exact solution jumps from .* near .*, 0.4\);"),
+    "small jump": (
+        "x + 1e-3*step(y - 0.4)",
+        "1",
+        r"u of the exact solution jumps from .* near .*, 0.4\);",
+    ),
     "branch cut": (
         "atan2(y - 0.5, x - 0.5)",
         "1",
         r"u of the exact solution jumps from -3.14159 to 3.14159 near .*0.5\);",
     ),
-    "point load": ("log(hypot(x - 0.4, y - 0.6))", "1", r"near \(x, y\) = \(0.4, 0.6\); .* truth.singular_points"),
-    "coefficient alone": ("x", "where(x < 0.3, 1, 2)", r"du/dnu .* jumps from .* near \(x, y\) = \(0.3, "),
-    "wrong by a thousandth": ("where(x < 0.3, 2, 1.001)*(x - 0.3)", "where(x < 0.3, 1, 2)", "du/dnu .* 2 to 2.002"),
+    "point load": (
+        "log(hypot(x - 0.4, y - 0.6))",
+        "1",
+        r"near \(x, y\) = \(0.4, 0.6\); .* truth.singular_points",
+    ),
+    "coefficient alone": (
+        "x",
+        "where(x < 0.3, 1, 2)",
+        r"du/dnu .* jumps from .* near \(x, y\) = \(0.3, ",
+    ),
+    "wrong by a thousandth": (
+        "where(x < 0.3, 2, 1.001)*(x - 0.3)",
+        "where(x < 0.3, 1, 2)",
+        "du/dnu .* 2 to 2.002",
+    ),
 }
 
 
@@ -82,7 +120,8 @@ def test_kinks_along_random_lines_are_found():
             statement(f"x*y + 1e-3*abs({c}*(x - {x}) + ({s})*(y - {y}))").check()
 
 
-# u, diffusion coefficient, more of the truth: each a solution, all but the first few where quadrature is off.
+# u, diffusion coefficient, more of the truth: each a solution, all but the first few where
+# quadrature is off.
 ACCEPTED = {
     "large constant": ("x + 1e12", "1", {}),
     "oscillating": ("sin(100*x)*sin(73*y)**2", "1", {}),
@@ -97,7 +136,11 @@ ACCEPTED = {
     "unbounded slope": ("r**(2/3)", "1", {"singular_points": [[0, 0]]}),
     "interface on facets": ("where(x < 0.5, 2, 1)*(x - 0.5) + y", "where(x < 0.5, 1, 2)", {}),
     "interface between facets": ("where(x < 0.3, 2, 1)*(x - 0.3) + y", "where(x < 0.3, 1, 2)", {}),
-    "interface aslant": ("where(x + 2*y < 1, 2, 1)*(x + 2*y - 1) + 2*x - y", "where(x + 2*y < 1, 1, 2)", {}),
+    "interface aslant": (
+        "where(x + 2*y < 1, 2, 1)*(x + 2*y - 1) + 2*x - y",
+        "where(x + 2*y < 1, 1, 2)",
+        {},
+    ),
     "round interface": (
         "where(hypot(x-.4, y-.6) < .25, (hypot(x-.4, y-.6)**2 - 1/16)*8/3, log(4*hypot(x-.4, y-.6)))",
         "where(hypot(x-.4, y-.6) < .25, 3, 1)",
@@ -123,19 +166,26 @@ def test_far_from_the_origin_as_well(origin):
 
 
 def test_interfaces_at_random_pass():
-    """u = (2 or 1)(n.x - c) + t.x with k = 1 or 2: the flux along the line jumps, that across does not."""
+    """u = (2 or 1)(n.x - c) + t.x with k = 1 or 2: the flux along the line jumps, that across does
+    not.
+    """
     rng = np.random.default_rng(5)
     for angle, c in zip(rng.uniform(0, np.pi, 10), rng.uniform(0.1, 0.4, 10), strict=True):
         n = f"({np.cos(angle)}*x + {np.sin(angle)}*y - {c})"
         t = f"{-np.sin(angle)}*x + {np.cos(angle)}*y"
-        statement(f"where({n} < 0, 2, 1)*{n} + {t}", data={"coefficient": f"where({n} < 0, 1, 2)"}).check()
+        statement(
+            f"where({n} < 0, 2, 1)*{n} + {t}", data={"coefficient": f"where({n} < 0, 1, 2)"}
+        ).check()
 
 
 @pytest.mark.parametrize("coarsest", [2, 16])
 def test_a_truth_that_penetrates_between_few_points_is_refused(coarsest):
     """u = -0.01 in the middle of 0.3 < x < 0.4, whatever the levels."""
     wrong = statement("4*(x - 0.3)*(x - 0.4) + y**2", {"bottom": "contact"}, coarsest=coarsest)
-    with pytest.raises(SceneError, match=r"u >= obstacle on the contact side at \(x, y\) = \(0.3(49|50).*: u = -0.01,"):
+    with pytest.raises(
+        SceneError,
+        match=r"u >= obstacle on the contact side at \(x, y\) = \(0.3(49|50).*: u = -0.01,",
+    ):
         wrong.check()
     with pytest.raises(SceneError, match="u >= obstacle"):
         discretize(wrong, "P1", coarsest)
@@ -147,7 +197,10 @@ def test_a_truth_that_penetrates_between_few_points_is_refused(coarsest):
     [
         ("100*(x - {a})*(x - {b}) + y**2", "fails u >= obstacle"),
         ("y*where({a} < x < {b}, (x - {a})**2*({b} - x)**2, 0)*1e12 + 2*y**2", "fails du/dnu >= 0"),
-        ("1 - y*where({a} < x < {b}, (x - {a})**2*({b} - x)**2, 0)*1e12", r"fails \(u - obstacle\) du/dnu = 0"),
+        (
+            "1 - y*where({a} < x < {b}, (x - {a})**2*({b} - x)**2, 0)*1e12",
+            r"fails \(u - obstacle\) du/dnu = 0",
+        ),
     ],
 )
 def test_a_wrong_sign_on_a_fivehundredth_of_a_side_is_found(u, message, start):
@@ -186,7 +239,10 @@ def test_a_failed_check_fails_again():
 
 
 def test_samples_do_not_depend_on_the_levels():
-    made = [make_domain(RECTANGLE | {"grade": {"towards": ["left"], "exponent": 9}}, HELD, n) for n in (1, 64)]
+    made = [
+        make_domain(RECTANGLE | {"grade": {"towards": ["left"], "exponent": 9}}, HELD, n)
+        for n in (1, 64)
+    ]
     first, second = (Samples.of_domain(domain, n) for domain, n in zip(made, (1, 64), strict=True))
     np.testing.assert_array_equal(first.cells, second.cells)
     assert first.cells.shape[2] >= FEWEST
@@ -194,7 +250,9 @@ def test_samples_do_not_depend_on_the_levels():
 
 
 MESHES = {
-    "grid": Grid(3, 2, (0.0, 0.0), (3.0, 2.0), "rising", ("contact", "neumann", "dirichlet", "neumann")),
+    "grid": Grid(
+        3, 2, (0.0, 0.0), (3.0, 2.0), "rising", ("contact", "neumann", "dirichlet", "neumann")
+    ),
     "triangle": Triangulation(
         np.array([[0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]),
         np.array([[0], [2], [1]]),
@@ -210,7 +268,9 @@ def test_samples_cover_the_domain(name):
     a, b, c = samples.cells.transpose(1, 0, 2)
     area = 0.5 * ((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0])
     assert area.min() > 0
-    assert area.sum() == pytest.approx(np.sum(np.broadcast_to(mesh.area, mesh.number_of_triangles)), rel=0.01)
+    assert area.sum() == pytest.approx(
+        np.sum(np.broadcast_to(mesh.area, mesh.number_of_triangles)), rel=0.01
+    )
     x, y, nx, ny = samples.contact
     np.testing.assert_allclose(np.hypot(nx, ny), 1)
     centre = mesh.p.mean(axis=1)
@@ -218,7 +278,11 @@ def test_samples_cover_the_domain(name):
 
 
 def test_sides_by_formula_are_taken_point_by_point():
-    boundary = {"contact": "where(y < 1e-9, 0.31 - x, -1)", "dirichlet": "y - 1 + 1e-9", "neumann": "rest"}
+    boundary = {
+        "contact": "where(y < 1e-9, 0.31 - x, -1)",
+        "dirichlet": "y - 1 + 1e-9",
+        "neumann": "rest",
+    }
     samples = Samples.of_domain(make_domain(RECTANGLE, boundary, 4), 4)
     x, y = samples.contact[:2]
     assert not y.any()

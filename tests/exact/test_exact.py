@@ -52,7 +52,9 @@ def skewed(labels=SIDES):
     p[:, inner] += np.random.default_rng(3).uniform(-0.07, 0.07, (2, inner.size))
     t = mesh.t.copy()
     t[:2, ::2] = t[1::-1, ::2]
-    return Triangulation.from_skfem(MeshTri(p, t, sort_t=False).with_boundaries(dict(mesh.boundaries)))
+    return Triangulation.from_skfem(
+        MeshTri(p, t, sort_t=False).with_boundaries(dict(mesh.boundaries))
+    )
 
 
 def inside(count=200):
@@ -68,8 +70,12 @@ def contact_side(zero=0.0):
 def test_gradient_is_the_derivative_of_the_value(name):
     exact, (x, y), h = SOLUTIONS[name], inside(), 1e-5
     ux, uy = exact.gradient(x, y)
-    np.testing.assert_allclose(ux, (exact.value(x + h, y) - exact.value(x - h, y)) / (2 * h), rtol=0, atol=1e-7)
-    np.testing.assert_allclose(uy, (exact.value(x, y + h) - exact.value(x, y - h)) / (2 * h), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(
+        ux, (exact.value(x + h, y) - exact.value(x - h, y)) / (2 * h), rtol=0, atol=1e-7
+    )
+    np.testing.assert_allclose(
+        uy, (exact.value(x, y + h) - exact.value(x, y - h)) / (2 * h), rtol=0, atol=1e-7
+    )
 
 
 @solutions
@@ -132,7 +138,9 @@ def test_closed_forms_agree_with_their_definitions():
     x, y = inside()
     corner = family("corner", {"x0": 0.1, "y0": 0.01, "amplitude": 2})
     r, theta = np.hypot(x - 0.1, y - 0.01), np.arctan2(y - 0.01, x - 0.1)
-    np.testing.assert_allclose(corner.value(x, y), 2 * r**1.5 * np.cos(1.5 * theta), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        corner.value(x, y), 2 * r**1.5 * np.cos(1.5 * theta), rtol=0, atol=1e-14
+    )
     a, z = 0.25, x - 0.2 + 1j * y
     s = np.sqrt(z - a) * np.sqrt(z + a)
     punch = family("punch", {"half_width": a, "x0": 0.2})
@@ -143,7 +151,9 @@ def test_closed_forms_agree_with_their_definitions():
 
 @pytest.mark.parametrize("distance", [1e-3, 1e-5, 1e-7])
 def test_punch_near_its_end_is_the_corner(distance):
-    """There s = sqrt(2 a delta) (1 + O(delta)), so u is sqrt(2 a) times 2/3 of r**(3/2) cos(3 theta/2)."""
+    """There s = sqrt(2 a delta) (1 + O(delta)), so u is sqrt(2 a) times 2/3 of r**(3/2) cos(3
+    theta/2).
+    """
     theta = np.linspace(0, np.pi, 9)
     x, y = distance * np.cos(theta), distance * np.abs(np.sin(theta))
     found = family("punch", {"x0": -1}).value(x, y)
@@ -156,9 +166,14 @@ def test_punch_scales_with_its_width(scale):
     x, y = inside()
     unit, scaled = family("punch"), family("punch", {"half_width": scale})
     rtol = 0 if np.frexp(scale)[0] == 0.5 else 1e-13
-    np.testing.assert_allclose(scaled.value(scale * x, scale * y) / scale**2, unit.value(x, y), rtol=rtol, atol=rtol)
     np.testing.assert_allclose(
-        np.divide(scaled.gradient(scale * x, scale * y), scale), unit.gradient(x, y), rtol=rtol, atol=rtol
+        scaled.value(scale * x, scale * y) / scale**2, unit.value(x, y), rtol=rtol, atol=rtol
+    )
+    np.testing.assert_allclose(
+        np.divide(scaled.gradient(scale * x, scale * y), scale),
+        unit.gradient(x, y),
+        rtol=rtol,
+        atol=rtol,
     )
 
 
@@ -190,13 +205,34 @@ def test_singular_points():
 
 
 WRONG = {
-    "unknown family": ({"family": "pnch"}, "truth.family: unknown family 'pnch'; did you mean punch"),
-    "unknown parameter": ({"family": "punch", "parameters": {"width": 1}}, "no parameter 'width'; did you mean half_w"),
-    "out of range": ({"family": "punch", "parameters": {"half_width": 0}}, "parameters.half_width: 0 is not valid"),
-    "below range": ({"family": "patch", "parameters": {"alpha": -1}}, "alpha: -1 is not valid; it must be >= 0"),
-    "not constant": ({"family": "corner", "parameters": {"x0": "y"}}, "parameters.x0: 'y' is not constant"),
-    "not a number": ({"family": "corner", "parameters": {"x0": True}}, "parameters.x0: a formula is text or a number"),
-    "crossed": ({"family": "biactive", "parameters": {"left": 0.9}}, "parameters.left: 0.9 is not valid"),
+    "unknown family": (
+        {"family": "pnch"},
+        "truth.family: unknown family 'pnch'; did you mean punch",
+    ),
+    "unknown parameter": (
+        {"family": "punch", "parameters": {"width": 1}},
+        "no parameter 'width'; did you mean half_w",
+    ),
+    "out of range": (
+        {"family": "punch", "parameters": {"half_width": 0}},
+        "parameters.half_width: 0 is not valid",
+    ),
+    "below range": (
+        {"family": "patch", "parameters": {"alpha": -1}},
+        "alpha: -1 is not valid; it must be >= 0",
+    ),
+    "not constant": (
+        {"family": "corner", "parameters": {"x0": "y"}},
+        "parameters.x0: 'y' is not constant",
+    ),
+    "not a number": (
+        {"family": "corner", "parameters": {"x0": True}},
+        "parameters.x0: a formula is text or a number",
+    ),
+    "crossed": (
+        {"family": "biactive", "parameters": {"left": 0.9}},
+        "parameters.left: 0.9 is not valid",
+    ),
     "neither": ({}, "either u, a formula, or family"),
     "both": ({"u": "x", "family": "punch"}, "either u, a formula, or family"),
     "no formula": ({"u": "x^2"}, r"truth.u: .*write x\*\*2 for a power"),
@@ -218,7 +254,12 @@ def test_families_describe_themselves():
 
 def test_reading_a_formula_family_imports_no_numpy():
     code = "import sys; from signorini.exact import family; family('smooth'); sys.exit('numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False, env={"PYTHONPATH": "src"}).returncode == 0
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], check=False, env={"PYTHONPATH": "src"}
+        ).returncode
+        == 0
+    )
 
 
 @solutions
@@ -245,15 +286,21 @@ def test_normals_point_outwards():
     expected = {"contact": (0, -1), "dirichlet": (0, 1)}
     for mesh in (grid(), skewed()):
         for label, normal in expected.items():
-            np.testing.assert_allclose(find_side(mesh, label).normal, np.tile(normal, (4, 1)).T, atol=1e-15)
+            np.testing.assert_allclose(
+                find_side(mesh, label).normal, np.tile(normal, (4, 1)).T, atol=1e-15
+            )
         neumann = find_side(mesh, "neumann")
-        np.testing.assert_allclose(neumann.normal[0], np.where(neumann.ends[0, 0] > 0, 1, -1), atol=1e-15)
+        np.testing.assert_allclose(
+            neumann.normal[0], np.where(neumann.ends[0, 0] > 0, 1, -1), atol=1e-15
+        )
         np.testing.assert_array_equal(np.sort(neumann.facets), mesh.boundary_facets("neumann"))
 
 
 @solutions
 def test_divergence_theorem(name):
-    """What flows in as load flows out through the sides; kinks of f and roots in g limit the quadrature here."""
+    """What flows in as load flows out through the sides; kinks of f and roots in g limit the
+    quadrature here.
+    """
     data, mesh = derived_data(SOLUTIONS[name]), skewed()
     points, weights = triangle_rule(15)
     x, y = np.einsum("dkm,kq->dmq", mesh.p[:, mesh.t], points)
@@ -274,7 +321,11 @@ def test_derived_data_pass_their_check(name, mesh):
 
 
 TYPED = {
-    "f": ("full contact", {"f": "-1.000001"}, r"data.f: -1.000001 at \(x, y\) = .* where the exact solution gives -1"),
+    "f": (
+        "full contact",
+        {"f": "-1.000001"},
+        r"data.f: -1.000001 at \(x, y\) = .* where the exact solution gives -1",
+    ),
     "f of nothing": ("punch", {"f": "1e-6"}, "data.f"),
     "g": ("full contact", {"g": "0.1"}, "data.g: 0.1 at .* gives 0"),
     "dirichlet": ("patch", {"dirichlet": "1e-6"}, "data.dirichlet: 1e-06 at"),
@@ -289,22 +340,38 @@ def test_wrong_typed_data_are_refused(case):
     name, typed, message = TYPED[case]
     data = {key: Formula(text, f"data.{key}") for key, text in typed.items()}
     with pytest.raises((SceneError, FormulaError), match=message):
-        check_data(SOLUTIONS[name], replace(derived_data(SOLUTIONS[name]), **data), Samples.of(grid()))
+        check_data(
+            SOLUTIONS[name], replace(derived_data(SOLUTIONS[name]), **data), Samples.of(grid())
+        )
 
 
 def test_right_typed_data_are_accepted():
-    data = {"f": "0", "g": "where(x > 0, 1, -1)*1.5*sqrt((r + x)/2)", "dirichlet": "r**1.5*cos(1.5*theta)"}
+    data = {
+        "f": "0",
+        "g": "where(x > 0, 1, -1)*1.5*sqrt((r + x)/2)",
+        "dirichlet": "r**1.5*cos(1.5*theta)",
+    }
     for exact in (SOLUTIONS["typed"], family("corner")):
         typed = {key: Formula(text, f"data.{key}") for key, text in data.items()}
         check_data(exact, replace(derived_data(exact), **typed), Samples.of(grid()))
 
 
 NO_SOLUTION = {
-    "below the obstacle": ("-1 - y", "0", "1", r"fails u >= obstacle on the contact side at \(x, y\)"),
+    "below the obstacle": (
+        "-1 - y",
+        "0",
+        "1",
+        r"fails u >= obstacle on the contact side at \(x, y\)",
+    ),
     "pulled": ("y", "0", "1", "fails du/dnu >= 0"),
     "pushed off contact": ("1 - y", "0", "1", r"fails \(u - obstacle\) du/dnu = 0"),
     "jump": ("where(x < 0, 0, 1)", "-1", "1", "u of the exact solution jumps from"),
-    "kink": ("abs(x - 0.25)", "-1", "1", r"du/dnu of the exact solution jumps from .* near \(x, y\) = \(0.25"),
+    "kink": (
+        "abs(x - 0.25)",
+        "-1",
+        "1",
+        r"du/dnu of the exact solution jumps from .* near \(x, y\) = \(0.25",
+    ),
     "flux jump": ("x", "-1", "where(x < 0, 1, 2)", "du/dnu of the exact solution jumps"),
 }
 
@@ -335,8 +402,18 @@ def test_load_under_a_coefficient_that_varies():
 def test_rates_under_a_coefficient_that_varies(element):
     statement = ProblemStatement.from_mapping(
         {
-            "domain": {"origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"},
-            "boundary": {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"},
+            "domain": {
+                "origin": [0, 0],
+                "size": [1, 1],
+                "diagonal": "falling",
+                "cells": "per-side",
+            },
+            "boundary": {
+                "bottom": "contact",
+                "right": "neumann",
+                "top": "dirichlet",
+                "left": "neumann",
+            },
             "data": {"coefficient": "1 + x*y"},
             "load_quadrature": "exact",
             "truth": {"kind": "exact", "u": "1 + sin(x)*y**2"},
@@ -345,6 +422,8 @@ def test_rates_under_a_coefficient_that_varies(element):
     errors = []
     for n in (8, 16, 32):
         problem = discretize(statement, element, n)
-        errors.append(ExactErrors(statement.exact, ["l2"]).of(problem.mesh, element, solve(problem).u)["l2"])
+        errors.append(
+            ExactErrors(statement.exact, ["l2"]).of(problem.mesh, element, solve(problem).u)["l2"]
+        )
     np.testing.assert_allclose(np.log2(errors[0] / errors[1]), 2, atol=0.1)
     np.testing.assert_allclose(np.log2(errors[1] / errors[2]), 2, atol=0.05)

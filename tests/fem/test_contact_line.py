@@ -55,9 +55,16 @@ def renumbered(mesh, seed=0):
     other = MeshTri(mesh.p[:, order], place[mesh.t][:, rng.permutation(mesh.number_of_triangles)])
     names = {}
     for label in ("dirichlet", "contact", "neumann"):
-        wanted = {tuple(sorted(ends)) for ends in place[mesh.facets[:, mesh.boundary_facets(label)]].T.tolist()}
-        names[label] = [k for k, ends in enumerate(other.facets.T.tolist()) if tuple(sorted(ends)) in wanted]
-    return Triangulation.from_skfem(other.with_boundaries({name: np.array(k, int) for name, k in names.items()}))
+        wanted = {
+            tuple(sorted(ends))
+            for ends in place[mesh.facets[:, mesh.boundary_facets(label)]].T.tolist()
+        }
+        names[label] = [
+            k for k, ends in enumerate(other.facets.T.tolist()) if tuple(sorted(ends)) in wanted
+        ]
+    return Triangulation.from_skfem(
+        other.with_boundaries({name: np.array(k, int) for name, k in names.items()})
+    )
 
 
 def numbers(rows):
@@ -84,7 +91,8 @@ def test_paths_walk_every_facet_once(mesh):
 
 
 @pytest.mark.parametrize(
-    ("name", "expected"), [("grid", 1), ("corners", 1), ("apart", 2), ("ring", 1), ("both", 2), ("touching", 2)]
+    ("name", "expected"),
+    [("grid", 1), ("corners", 1), ("apart", 2), ("ring", 1), ("both", 2), ("touching", 2)],
 )
 def test_components_are_counted(name, expected, element):
     rows = contact_rows(MESHES[name], solution(MESHES[name], element))
@@ -126,7 +134,9 @@ def test_closed_components_run_counterclockwise():
     assert path.points[0, 1] > path.points[0, 0]
 
 
-@pytest.mark.parametrize("name", [name for name in MESHES if name != "grid"])  # which has one numbering
+@pytest.mark.parametrize(
+    "name", [name for name in MESHES if name != "grid"]
+)  # which has one numbering
 def test_numbering_of_the_mesh_does_not_matter(name, element):
     mesh = MESHES[name]
     rows, again = (contact_rows(m, solution(m, element)) for m in (mesh, renumbered(mesh)))
@@ -136,7 +146,9 @@ def test_numbering_of_the_mesh_does_not_matter(name, element):
 @pytest.mark.parametrize("scale", [1e-9, 1e9])
 def test_size_of_the_domain_does_not_matter(scale, element):
     big = labelled(MESHES["delaunay"].skfem)
-    small = Triangulation.from_skfem(MeshTri(big.p * scale, big.t).with_boundaries(big.skfem.boundaries))
+    small = Triangulation.from_skfem(
+        MeshTri(big.p * scale, big.t).with_boundaries(big.skfem.boundaries)
+    )
     found = solution(big, element)
     for row, other in zip(contact_rows(big, found), contact_rows(small, found), strict=True):
         assert other["s"] == pytest.approx(scale * row["s"], rel=1e-12)
@@ -145,7 +157,10 @@ def test_size_of_the_domain_does_not_matter(scale, element):
 
 def test_one_side_has_the_bytes_it_always_had(element):
     """Regression: until now the nodes of a straight side were sorted by their coordinate."""
-    for mesh, along in ((grid(7, 3), 0), (grid(4, 6, labels=("neumann", "dirichlet", "neumann", "contact")), 1)):
+    for mesh, along in (
+        (grid(7, 3), 0),
+        (grid(4, 6, labels=("neumann", "dirichlet", "neumann", "contact")), 1),
+    ):
         found = solution(mesh, element, lambda x, y: np.sin(9 * (x + y)) > 0)
         nodes = find_element(element).nodes(mesh, found.contact)
         order = np.argsort(nodes[along])
@@ -209,7 +224,9 @@ def test_a_vertex_between_unequal_facets_is_the_critical_point_of_cr():
     turn = path.points[0, k + 1]
     found = solution(mesh, "CR", lambda x, y: x > turn)
     np.testing.assert_array_equal(contact_line(mesh, found)["critical_points"], [[turn, 0]])
-    (critical,) = [row["critical"] for row in contact_rows(mesh, found) if row["critical"] is not None]
+    (critical,) = [
+        row["critical"] for row in contact_rows(mesh, found) if row["critical"] is not None
+    ]
     assert critical == pytest.approx(turn, rel=1e-14)
 
 
@@ -217,7 +234,9 @@ def test_a_vertex_between_unequal_facets_is_the_critical_point_of_cr():
 def test_a_closed_part_turns_an_even_number_of_times(turn, expected, element):
     mesh = ring()
     for binds in (lambda x, y: x > turn, lambda x, y: x < turn, lambda x, y: y > turn):
-        assert len(contact_line(mesh, solution(mesh, element, binds))["critical_points"]) == expected
+        assert (
+            len(contact_line(mesh, solution(mesh, element, binds))["critical_points"]) == expected
+        )
 
 
 def test_components_do_not_meet(element):
@@ -266,7 +285,9 @@ def test_pieces_end_at_critical_points(element):
     found = solution(mesh, element, lambda x, y: (x > 0.3) & (x < 0.8))
     pieces = binding_pieces(mesh, found)
     np.testing.assert_array_equal(pieces[1:, 0], pieces[:-1, 1])
-    np.testing.assert_array_equal(pieces[[0, -1], [0, 1]], contact_line(mesh, found)["critical_points"])
+    np.testing.assert_array_equal(
+        pieces[[0, -1], [0, 1]], contact_line(mesh, found)["critical_points"]
+    )
 
 
 def test_a_lone_binding_vertex_has_two_halves():

@@ -14,7 +14,10 @@ from signorini.fem.quadrature import triangle_rule
 @pytest.mark.parametrize("rule", ["centroid", "midpoints", "vertices", 5, 9])
 def test_every_point_comes_once_at_its_place(rule, diagonal, at_once, monkeypatch):
     monkeypatch.setattr(cells, "_POINTS_AT_ONCE", at_once)
-    mesh, points = grid(4, 5, diagonal=diagonal, origin=(1.0, -2.0), size=(2.0, 0.5)), triangle_rule(rule)[0]
+    mesh, points = (
+        grid(4, 5, diagonal=diagonal, origin=(1.0, -2.0), size=(2.0, 0.5)),
+        triangle_rule(rule)[0],
+    )
     p = mesh.p[:, mesh.t].reshape(2, 3, 2, mesh.ny, mesh.nx)
     for kind, corners in enumerate(mesh.corners):
         expected = np.einsum("dkji,kq->dqji", p[:, :, kind, 1:4], points)
@@ -41,4 +44,6 @@ def test_one_point_is_weighted_without_rounding_anew():
     weights, values = rng.random((3, 1)), rng.random((1, 4, 5))
     np.testing.assert_array_equal(weighted(weights, values), [w * values[0] for w in weights[:, 0]])
     weights, values = rng.random((3, 6)), rng.random((6, 4, 5))
-    np.testing.assert_allclose(weighted(weights, values), np.einsum("kq,qji->kji", weights, values), rtol=1e-14)
+    np.testing.assert_allclose(
+        weighted(weights, values), np.einsum("kq,qji->kji", weights, values), rtol=1e-14
+    )

@@ -75,7 +75,9 @@ def test_blocks_of_points_add_up_to_the_load(kind, rule, at_once, monkeypatch):
 @pytest.mark.parametrize("rule", [*RULES, NODAL])
 def test_a_grid_gets_the_load_of_its_triangles(kind, rule, diagonal):
     mesh = grid(5, 3, diagonal=diagonal, size=(1.0, 2.0))
-    by_cells, by_triangles = (assemble_load(m, kind, F, G, rule) for m in (mesh, Triangulation.from_skfem(mesh.skfem)))
+    by_cells, by_triangles = (
+        assemble_load(m, kind, F, G, rule) for m in (mesh, Triangulation.from_skfem(mesh.skfem))
+    )
     np.testing.assert_allclose(by_cells, by_triangles, rtol=0, atol=1e-14)
 
 
@@ -84,7 +86,9 @@ def test_the_nodal_load_is_that_of_the_interpolant(mesh, kind):
     basis = Basis(mesh.skfem, kind.skfem(), intorder=2)
     mass = BilinearForm(lambda u, v, w: u * v).assemble(basis)
     expected = mass @ F(*kind.nodes(mesh, np.arange(kind.size(mesh))))
-    np.testing.assert_allclose(assemble_load(mesh, kind, F, ZERO, NODAL), expected, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(
+        assemble_load(mesh, kind, F, ZERO, NODAL), expected, rtol=0, atol=1e-13
+    )
 
 
 def test_for_cr_the_nodal_load_is_the_midpoint_rule(mesh):
@@ -93,7 +97,9 @@ def test_for_cr_the_nodal_load_is_the_midpoint_rule(mesh):
 
 
 def test_the_sum_is_the_integral_of_the_data(mesh, kind):
-    """Shape functions add up to one, so the sum is int f + int g: the Fichera condition is read off it."""
+    """Shape functions add up to one, so the sum is int f + int g: the Fichera condition is read off
+    it.
+    """
     b = assemble_load(mesh, kind, Formula("3"), Formula("-2"), "centroid")
     area = np.sum(np.broadcast_to(mesh.area, mesh.number_of_triangles))
     start, end = mesh.p[:, mesh.facets[:, mesh.boundary_facets("neumann")]].transpose(1, 0, 2)
@@ -101,13 +107,20 @@ def test_the_sum_is_the_integral_of_the_data(mesh, kind):
 
 
 def test_exact_integrates_polynomials_exactly(mesh, kind):
-    exact, high = (assemble_load(mesh, kind, Formula("x**6*y**5 - 3*x*y"), ZERO, rule) for rule in ("exact", 12))
+    exact, high = (
+        assemble_load(mesh, kind, Formula("x**6*y**5 - 3*x*y"), ZERO, rule)
+        for rule in ("exact", 12)
+    )
     np.testing.assert_allclose(exact, high, rtol=0, atol=1e-14 * np.abs(high).max())
 
 
 def test_the_load_of_one_hat():
-    """int x lambda_i over the triangle (0,0), (1,0), (0,1): 1/24, 1/12, 1/24; the other triangle 1/8, 1/12, 1/8."""
-    b = assemble_load(grid(1, labels=("dirichlet",) * 4), element("P1"), Formula("x"), ZERO, "exact")
+    """int x lambda_i over the triangle (0,0), (1,0), (0,1): 1/24, 1/12, 1/24; the other triangle
+    1/8, 1/12, 1/8.
+    """
+    b = assemble_load(
+        grid(1, labels=("dirichlet",) * 4), element("P1"), Formula("x"), ZERO, "exact"
+    )
     np.testing.assert_allclose(b, [1 / 24, 1 / 12 + 1 / 8, 1 / 24 + 1 / 12, 1 / 8], rtol=1e-14)
 
 
@@ -121,8 +134,12 @@ def test_the_load_is_linear_in_the_data(mesh, kind):
 @pytest.mark.parametrize("power", [-900, -1, 1, 900])
 def test_powers_of_two_pass_through_unrounded(mesh, kind, power):
     f, g = (Formula(f"2**({power})*({text})") for text in (DATA["f"], DATA["g"]))
-    plain = assemble_load(mesh, kind, Formula(f"1*({DATA['f']})"), Formula(f"1*({DATA['g']})"), "midpoints")
-    np.testing.assert_array_equal(assemble_load(mesh, kind, f, g, "midpoints"), np.ldexp(plain, power))
+    plain = assemble_load(
+        mesh, kind, Formula(f"1*({DATA['f']})"), Formula(f"1*({DATA['g']})"), "midpoints"
+    )
+    np.testing.assert_array_equal(
+        assemble_load(mesh, kind, f, g, "midpoints"), np.ldexp(plain, power)
+    )
 
 
 def test_g_acts_on_the_neumann_part_alone(kind):
@@ -130,7 +147,9 @@ def test_g_acts_on_the_neumann_part_alone(kind):
     b = assemble_load(mesh, kind, ZERO, Formula("1"), "exact")
     touched = kind.nodes(mesh, np.flatnonzero(b))[0]
     assert np.all((touched < 0.2) | (touched > 0.8))
-    no_neumann = assemble_load(grid(4, labels=("dirichlet",) * 4), kind, ZERO, Formula("1"), "exact")
+    no_neumann = assemble_load(
+        grid(4, labels=("dirichlet",) * 4), kind, ZERO, Formula("1"), "exact"
+    )
     assert not no_neumann.any()
 
 

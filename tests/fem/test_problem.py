@@ -13,7 +13,9 @@ from signorini.mesh.triangulation import Triangulation
 
 MESHES = {
     "grid": lambda labels: grid(4, 3, labels),
-    "grid as triangulation": lambda labels: Triangulation.from_skfem(grid(4, 3, labels, "rising").skfem),
+    "grid as triangulation": lambda labels: Triangulation.from_skfem(
+        grid(4, 3, labels, "rising").skfem
+    ),
     "delaunay": lambda labels: delaunay(0, labels=labels),
 }
 LABELS = {
@@ -48,7 +50,10 @@ def test_dofs_are_fixed_under_constraint_or_plainly_free(problem, labels):
     x, y = nodes(problem)
     on = sides(x, y)
     fixed, contact = (
-        np.any([on[side] for side, name in zip(on, labels, strict=True) if name == label] or [x > 2], axis=0)
+        np.any(
+            [on[side] for side, name in zip(on, labels, strict=True) if name == label] or [x > 2],
+            axis=0,
+        )
         for label in ("dirichlet", "contact")
     )
     np.testing.assert_array_equal(problem.fixed, np.flatnonzero(fixed))
@@ -88,7 +93,10 @@ def test_a_level_is_a_positive_whole_number(element, n):
 
 
 def test_a_level_may_be_numpys(element):
-    assert discretize(statement(), element, np.int64(4)).b.size == discretize(statement(), element, 4).b.size
+    assert (
+        discretize(statement(), element, np.int64(4)).b.size
+        == discretize(statement(), element, 4).b.size
+    )
 
 
 @pytest.mark.parametrize("name", ["P2", "cr", "p1", ""])
@@ -113,7 +121,9 @@ def test_a_level_counts_cells_per_unit_or_per_side(element, size, cells, n, shap
     assert (mesh.x[-1], mesh.y[-1]) == size
 
 
-@pytest.mark.parametrize(("size", "n", "axis"), [((0.3, 1), 4, "x"), ((1, 1.05), 10, "y"), ((1, 0.01), 10, "y")])
+@pytest.mark.parametrize(
+    ("size", "n", "axis"), [((0.3, 1), 4, "x"), ((1, 1.05), 10, "y"), ((1, 0.01), 10, "y")]
+)
 def test_a_side_must_be_a_whole_number_of_cells(size, n, axis):
     with pytest.raises(MeshError, match=f"cuts the {axis} side into .* cells; choose n"):
         discretize(statement(domain={"size": size, "cells": "per-unit"}), "P1", n)
@@ -138,7 +148,10 @@ def test_data_that_are_not_finite_are_named(data, field):
 @pytest.mark.parametrize(("corner", "other"), [((0, 0), "left"), ((1, 0), "right")])
 def test_an_obstacle_above_the_dirichlet_data_at_a_shared_corner_is_refused(element, corner, other):
     """No function of K exists: its trace would jump."""
-    labels = ("contact", *("dirichlet" if side == other else "neumann" for side in ("right", "top", "left")))
+    labels = (
+        "contact",
+        *("dirichlet" if side == other else "neumann" for side in ("right", "top", "left")),
+    )
     obstacle = f"0.25 - hypot(x - {corner[0]}, y - {corner[1]})"
     with pytest.raises(SceneError, match=rf"incompatible data at \({corner[0]}, {corner[1]}\)"):
         discretize(statement(labels, obstacle=obstacle), element, 4)
@@ -146,9 +159,17 @@ def test_an_obstacle_above_the_dirichlet_data_at_a_shared_corner_is_refused(elem
 
 @pytest.mark.parametrize(
     ("obstacle", "dirichlet"),
-    [("0.25*cos(2*pi*x)", 0.25), ("1e-200", 1e-200), ("-3 + x", 0), ("sin(pi*x)", 0), ("1e5*sin(2*pi*x)", 0)],
+    [
+        ("0.25*cos(2*pi*x)", 0.25),
+        ("1e-200", 1e-200),
+        ("-3 + x", 0),
+        ("sin(pi*x)", 0),
+        ("1e5*sin(2*pi*x)", 0),
+    ],
 )
-def test_an_obstacle_that_meets_the_dirichlet_data_at_a_shared_corner_is_accepted(element, obstacle, dirichlet):
+def test_an_obstacle_that_meets_the_dirichlet_data_at_a_shared_corner_is_accepted(
+    element, obstacle, dirichlet
+):
     """To rounding: sin(pi) is 1.2e-16."""
     labels = ("contact", "dirichlet", "neumann", "dirichlet")
     problem = discretize(statement(labels, obstacle=obstacle, dirichlet=dirichlet), element, 4)

@@ -13,7 +13,9 @@ DEGREES = NAMED | {degree: degree for degree in (1, 2, 3, 4, 5, 8, 13, 40, 60)}
 
 
 def mean_of_monomial(a, b, c):
-    """Mean of the product of powers of the barycentric coordinates over a triangle (Eisenberg and Malvern 1973)."""
+    """Mean of the product of powers of the barycentric coordinates over a triangle (Eisenberg and
+    Malvern 1973).
+    """
     return 2 * factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + 2)
 
 

@@ -51,11 +51,15 @@ def test_its_energy_is_that_of_the_gradients(mesh, element):
     """u'Au = sum_T |T| |grad u|^2, the square of the broken norm (2.4)."""
     u = random_vector(mesh, element)
     gradients = mesh.gradients(find_element(element).vertex_values(mesh, u))
-    assert u @ apply_stiffness(mesh, element, u) == pytest.approx(mesh.area * np.sum(gradients**2), rel=1e-12)
+    assert u @ apply_stiffness(mesh, element, u) == pytest.approx(
+        mesh.area * np.sum(gradients**2), rel=1e-12
+    )
 
 
 def test_constants_have_no_energy(mesh, element):
-    assert not apply_stiffness(mesh, element, np.full(find_element(element).size(mesh), 1.2345)).any()
+    assert not apply_stiffness(
+        mesh, element, np.full(find_element(element).size(mesh), 1.2345)
+    ).any()
 
 
 def test_affine_functions_leave_no_force_inside(mesh, element):

@@ -41,7 +41,11 @@ def form(u, v, w):
 
 @pytest.mark.parametrize("constant", [True, False])
 def test_the_matrix_is_that_of_scikit_fem(mesh, element, constant):
-    k = np.ones(mesh.number_of_triangles) if constant else np.linspace(0.1, 9.0, mesh.number_of_triangles)
+    k = (
+        np.ones(mesh.number_of_triangles)
+        if constant
+        else np.linspace(0.1, 9.0, mesh.number_of_triangles)
+    )
     expected = form.assemble(Basis(mesh.skfem, element.skfem(), intorder=1), k=k[:, None]).toarray()
     found = assemble_stiffness(mesh, element, None if constant else k)
     assert found.format == "csr"
@@ -90,15 +94,24 @@ def couplings(mesh):
 
 
 def test_needles_across_the_axes_have_couplings_right_to_the_last_bit():
-    """One turned by 30 degrees, a million times as long as high: in double precision ten digits would be lost."""
+    """One turned by 30 degrees, a million times as long as high: in double precision ten digits
+    would be lost.
+    """
     turn, height = np.array([[np.sqrt(0.75), -0.5], [0.5, np.sqrt(0.75)]]), 1e-6
     p = turn @ np.array([[0.0, 1.0, 0.4], [0.0, 0.0, height]])
-    mesh = Triangulation(p, np.array([[0], [1], [2]]), {"neumann": np.array([[0, 1, 0], [1, 2, 2]])})
+    mesh = Triangulation(
+        p, np.array([[0], [1], [2]]), {"neumann": np.array([[0, 1, 0], [1, 2, 2]])}
+    )
     A = assemble_stiffness(mesh, ELEMENTS["P1"]).toarray()
     corners = [[Fraction(value) for value in corner] for corner in p.T.tolist()]
-    ab, bc, ca = ([q - r for q, r in zip(corners[j], corners[i], strict=True)] for i, j in ((0, 1), (1, 2), (2, 0)))
+    ab, bc, ca = (
+        [q - r for q, r in zip(corners[j], corners[i], strict=True)]
+        for i, j in ((0, 1), (1, 2), (2, 0))
+    )
     doubled = 2 * abs(ab[0] * bc[1] - ab[1] * bc[0])
-    expected = [float((u[0] * v[0] + u[1] * v[1]) / doubled) for u, v in ((bc, ca), (ca, ab), (ab, bc))]
+    expected = [
+        float((u[0] * v[0] + u[1] * v[1]) / doubled) for u, v in ((bc, ca), (ca, ab), (ab, bc))
+    ]
     np.testing.assert_allclose([A[0, 1], A[1, 2], A[0, 2]], expected, rtol=1e-15)
 
 

@@ -28,7 +28,9 @@ from signorini.report.field import field_of
 from signorini.storage import read_csv, write_csv
 
 ROOT = Path(__file__).parents[2]
-PRINTED = list(csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines()))  # the paper's
+PRINTED = list(
+    csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines())
+)  # the paper's
 
 
 def published_errors():
@@ -59,16 +61,35 @@ def sloping_surface(critical_points=((0.7, 0.0),)):
     }
 
 
-PAPER = ("contact", "neumann", "dirichlet", "neumann")  # the sides of Section 5: bottom, right, top, left
+PAPER = (
+    "contact",
+    "neumann",
+    "dirichlet",
+    "neumann",
+)  # the sides of Section 5: bottom, right, top, left
 
 
-def sloping(element="P1", n=8, size=(1.0, 1.0), origin=(0.0, 0.0), height=1.0, labels=PAPER, turn=0.7):
-    """A grid, and max(turn - x, 0) (1 - y) of the unit square's x and y as a solution on it; binding from `turn` on."""
+def sloping(
+    element="P1", n=8, size=(1.0, 1.0), origin=(0.0, 0.0), height=1.0, labels=PAPER, turn=0.7
+):
+    """A grid, and max(turn - x, 0) (1 - y) of the unit square's x and y as a solution on it;
+    binding from `turn` on.
+    """
     mesh, kind = Grid(n, n, origin, size, "falling", labels), find_element(element)
     x, y = ((kind.nodes(mesh, np.arange(kind.size(mesh))).T - origin) / size).T
-    contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), kind.boundary_dofs(mesh, "dirichlet"))
-    found = {"element": element, "n": n, "u": height * np.maximum(turn - x, 0) * (1 - y), "contact": contact}
-    state = {"active": x[contact] >= turn, "multiplier": np.maximum(x[contact] - turn, 0) * height / n}
+    contact = np.setdiff1d(
+        kind.boundary_dofs(mesh, "contact"), kind.boundary_dofs(mesh, "dirichlet")
+    )
+    found = {
+        "element": element,
+        "n": n,
+        "u": height * np.maximum(turn - x, 0) * (1 - y),
+        "contact": contact,
+    }
+    state = {
+        "active": x[contact] >= turn,
+        "multiplier": np.maximum(x[contact] - turn, 0) * height / n,
+    }
     return mesh, SimpleNamespace(**found, **state, lower=np.zeros(contact.size))
 
 
@@ -82,10 +103,14 @@ def sloping_rows(**options):
 
 FIGURES = {
     "surface": lambda: draw_surface(sloping_surface()),
-    "convergence": lambda: draw_convergence(published_errors(), "l2", {"P1": 1.8955, "CR": "2.0979"}),
+    "convergence": lambda: draw_convergence(
+        published_errors(), "l2", {"P1": 1.8955, "CR": "2.0979"}
+    ),
     "field": lambda: draw_field(sloping_field("CR"), "a title"),
     "contact line": lambda: draw_contact_line(sloping_rows()),
-    "gallery": lambda: draw_gallery([("P1", "conforming", sloping_field()), ("CR", "not", sloping_field("CR"))]),
+    "gallery": lambda: draw_gallery(
+        [("P1", "conforming", sloping_field()), ("CR", "not", sloping_field("CR"))]
+    ),
 }
 
 
@@ -176,7 +201,9 @@ def test_a_failed_save_leaves_the_old_file_alone(tmp_path):
     assert target.read_text() == "old"
 
 
-@pytest.mark.parametrize("name", [name for name in FIGURES if name != "gallery"])  # which is for the screen
+@pytest.mark.parametrize(
+    "name", [name for name in FIGURES if name != "gallery"]
+)  # which is for the screen
 def test_figures_are_drawn_for_the_width_of_the_document(name):
     source = (ROOT / "paper/main.tex").read_text(encoding="utf-8")
     assert float(re.search(r"textwidth=(\d+)mm", source)[1]) / 25.4 == pytest.approx(TEXT_WIDTH)
@@ -246,7 +273,9 @@ def test_convergence_is_labelled():
     assert legend(figure) == ["CF (P1), slope 1.90", "NCF (CR), slope 2.10"]
     assert axes.get_xlabel() == "mesh width $h$"
     assert axes.get_ylabel() == "$L^2$ error"
-    ticks = dict(zip((t.get_text() for t in axes.get_xticklabels()), axes.get_xticks(), strict=True))
+    ticks = dict(
+        zip((t.get_text() for t in axes.get_xticklabels()), axes.get_xticks(), strict=True)
+    )
     assert ticks == {f"1/{n}": 1 / n for n in (2, 4, 8, 16, 32, 64)}
     assert axes.get_xlim() == pytest.approx((1e-2, 1))  # as in the paper
 
@@ -360,7 +389,8 @@ def test_boundary_parts_lie_where_they_should(label):
 
 def test_boundary_parts_differ_in_more_than_colour():
     lines = [
-        line(draw_field(sloping_field()), name) for name in ("Dirichlet", "Neumann", "contact", "contact, binding")
+        line(draw_field(sloping_field()), name)
+        for name in ("Dirichlet", "Neumann", "contact", "contact, binding")
     ]
     assert len({(artist.get_linewidth(), artist.get_linestyle()) for artist in lines}) == 4
 
@@ -368,7 +398,13 @@ def test_boundary_parts_differ_in_more_than_colour():
 def test_critical_points_of_a_field_are_marked():
     figure = draw_field(sloping_field("CR"))
     np.testing.assert_array_equal(line(figure, "critical point").get_xydata(), [[0.75, 0]])
-    assert legend(figure) == ["Dirichlet", "Neumann", "contact", "contact, binding", "critical point"]
+    assert legend(figure) == [
+        "Dirichlet",
+        "Neumann",
+        "contact",
+        "contact, binding",
+        "critical point",
+    ]
     assert "critical point" not in legend(draw_field(sloping_field(turn=2)))
 
 
@@ -379,7 +415,10 @@ def test_any_size_and_place(scale, offset):
     origin = (scale * offset, -scale * offset)
     figure = draw_field(sloping_field(size=(scale, 2 * scale), origin=origin))
     axes = figure.axes[0]
-    image, reference = pixels(figure).astype(int), pixels(draw_field(sloping_field(size=(1.0, 2.0)))).astype(int)
+    image, reference = (
+        pixels(figure).astype(int),
+        pixels(draw_field(sloping_field(size=(1.0, 2.0)))).astype(int),
+    )
     box = np.array(axes.get_window_extent()).ravel()
     x, y = axes.transData.transform([[0, 0], [1, 1]])
     assert (y - x)[0] == pytest.approx((y - x)[1])  # one scale for both axes
@@ -389,7 +428,10 @@ def test_any_size_and_place(scale, offset):
     elif scale != 1:
         assert f"[$10^{{{round(np.log10(scale))}}}$]" in axes.get_xlabel()
     assert all(len(text.get_text()) < 8 for text in axes.get_xticklabels() + axes.get_yticklabels())
-    middle = [slice(len(image) // 2 - 50, len(image) // 2 + 50), slice(int(box[0]) + 9, int(box[2]) - 9)]
+    middle = [
+        slice(len(image) // 2 - 50, len(image) // 2 + 50),
+        slice(int(box[0]) + 9, int(box[2]) - 9),
+    ]
     assert np.mean(np.any(image[tuple(middle)] != reference[tuple(middle)], axis=-1)) < 0.01
 
 
@@ -424,7 +466,12 @@ def test_contact_line_from_text_and_from_numbers(tmp_path):
 
 def test_contact_line_shows_the_finest_level():
     figure = draw_contact_line([*sloping_rows(n=16), *sloping_rows(n=8)])
-    assert legend(figure) == ["CF (P1), $n = 16$", "NCF (CR), $n = 16$", "obstacle", "critical point"]
+    assert legend(figure) == [
+        "CF (P1), $n = 16$",
+        "NCF (CR), $n = 16$",
+        "obstacle",
+        "critical point",
+    ]
     upper, lower = figure.axes
     for axes, column in ((upper, "u"), (lower, "flux")):
         x, y = next(artist for artist in axes.lines if len(artist.get_xdata()) == 17).get_data()
@@ -435,7 +482,9 @@ def test_contact_line_shows_the_finest_level():
 
 def test_critical_points_of_the_contact_line_are_marked_in_both_panels():
     for axes in draw_contact_line(sloping_rows()).axes:
-        upright = [artist.get_xdata()[0] for artist in axes.lines if len(set(artist.get_xdata())) == 1]
+        upright = [
+            artist.get_xdata()[0] for artist in axes.lines if len(set(artist.get_xdata())) == 1
+        ]
         assert sorted({0.6875, 0.75} & set(upright)) == [0.6875, 0.75]
 
 
@@ -474,7 +523,8 @@ def test_contact_line_that_cannot_be_drawn_is_refused():
 @pytest.mark.parametrize("count", [1, 4, 5, 9])
 def test_gallery_has_four_in_a_row(count):
     scenes = [
-        (f"scene-{k}", "a title that is far too long for its cell " * 4, sloping_field(n=2)) for k in range(count)
+        (f"scene-{k}", "a title that is far too long for its cell " * 4, sloping_field(n=2))
+        for k in range(count)
     ]
     figure = draw_gallery(scenes)
     domains = [axes.get_position() for axes in figure.axes[:count]]
@@ -487,7 +537,9 @@ def test_gallery_has_four_in_a_row(count):
 
 def test_gallery_says_what_range_u_has():
     field = sloping_field(height=1e-9)
-    assert "$0 \\leq u \\leq 700$  [$10^{-12}$]" in {text.get_text() for text in draw_gallery([("a", "", field)]).texts}
+    assert "$0 \\leq u \\leq 700$  [$10^{-12}$]" in {
+        text.get_text() for text in draw_gallery([("a", "", field)]).texts
+    }
 
 
 def test_an_empty_gallery_is_refused():

@@ -14,7 +14,10 @@ X, Y = np.linspace(0.1, 1.0, 7)[None, :], np.linspace(-1.0, 1.0, 5)[:, None]
 def code_of(text, *wanted):
     graph = Graph()
     program = Formula(text).program
-    found = [taylor.QUANTITIES[name](lambda axis: taylor.differentiate(graph, program, axis)) for name in wanted]
+    found = [
+        taylor.QUANTITIES[name](lambda axis: taylor.differentiate(graph, program, axis))
+        for name in wanted
+    ]
     return compile_code(graph, found)
 
 
@@ -54,7 +57,9 @@ def test_results_have_the_shape_of_what_they_depend_on(text, quantity, shape):
 
 
 def test_a_separable_laplacian_takes_few_steps_on_all_points():
-    """u = a(x) b(y) - c(y) d(x) has the Laplacian a'' b - c d'' + (a b'' - c'' d): two products and two sums."""
+    """u = a(x) b(y) - c(y) d(x) has the Laplacian a'' b - c d'' + (a b'' - c'' d): two products and
+    two sums.
+    """
     u = family("smooth", {"x0": 0.45}).u
     code = code_of(u.text, "laplacian")
     found, full = dict(enumerate(code.start)), 0
@@ -71,7 +76,15 @@ def test_value_and_gradient_share_their_steps():
     assert len(code_of("exp(x*y)", "value", "d/dx", "d/dy").instructions) == 4
 
 
-BOUNDED = ["x", "x*y - y", "sin(x)*exp(y) - 3*x", "-(x - 2)*(y + 1)**3*x", "where(x > 0.5, log(x), y)", "r*theta", "7"]
+BOUNDED = [
+    "x",
+    "x*y - y",
+    "sin(x)*exp(y) - 3*x",
+    "-(x - 2)*(y + 1)**3*x",
+    "where(x > 0.5, log(x), y)",
+    "r*theta",
+    "7",
+]
 
 
 @pytest.mark.parametrize("text", BOUNDED)
@@ -82,7 +95,9 @@ def test_bounds_hold_and_are_no_larger_than_those_of_the_terms(text):
     assert np.max(np.abs(found)) <= bound < 100 * np.max(np.abs(found))
 
 
-@pytest.mark.parametrize(("text", "x"), [("log(x)*y", 0.0), ("sqrt(x) - y", -1.0), ("y + x*1e300*1e300", 1.0)])
+@pytest.mark.parametrize(
+    ("text", "x"), [("log(x)*y", 0.0), ("sqrt(x) - y", -1.0), ("y + x*1e300*1e300", 1.0)]
+)
 def test_bounds_are_not_finite_where_a_value_is_not(text, x):
     graph = Graph()
     value = taylor.differentiate(graph, Formula(text).program, "").u

@@ -176,7 +176,9 @@ VALUES = {
     "floor(x) + 2*ceil(x) + 3*sign(y)": np.floor(X) + 2 * np.ceil(X) + 3 * np.sign(Y),
     "pos(x - 0.3)**3 + step(y)": np.maximum(X - 0.3, 0) ** 3 + (Y >= 0),
     "where(x > 0, 1, 0)": np.where(X > 0, 1.0, 0.0),
-    "where(0 <= x < 1 and not y < 0 or x == -1.5, x, y)": np.where((X >= 0) & (X < 1) & ~(Y < 0) | (X == -1.5), X, Y),
+    "where(0 <= x < 1 and not y < 0 or x == -1.5, x, y)": np.where(
+        (X >= 0) & (X < 1) & ~(Y < 0) | (X == -1.5), X, Y
+    ),
     "where(y > x < 1 != y, 1, 2)": np.where((Y > X) & (X < 1) & (Y != 1), 1.0, 2.0),
     "where((x > 0) or (y > 0), 1, 2)": np.where((X > 0) | (Y > 0), 1.0, 2.0),
     "where(x >= 0, sqrt(x), 1/y**0)": np.where(X >= 0, np.sqrt(np.maximum(X, 0)), 1.0),
@@ -197,7 +199,9 @@ def test_values_agree_with_numpy(text):
     np.testing.assert_allclose(formula(X, Y), VALUES[text], rtol=4e-15, atol=1e-15)
 
 
-@pytest.mark.parametrize("number", [0, -3, 0.1, -0.0, 1e-5, 5e-324, -1.7976931348623157e308, 10**308])
+@pytest.mark.parametrize(
+    "number", [0, -3, 0.1, -0.0, 1e-5, 5e-324, -1.7976931348623157e308, 10**308]
+)
 def test_numbers_are_formulas(number):
     formula = Formula(number)
     assert formula.constant == float(number)
@@ -273,10 +277,13 @@ def test_a_point_does_not_depend_on_the_sign_of_a_zero(x, y):
     assert Formula("atan2(-y, x)")(x, y) == -expected
 
 
-# Formula -> the same in plain NumPy, where the sign of a zero decides between pi and -pi or inf and -inf.
+# Formula -> the same in plain NumPy, where the sign of a zero decides between pi and -pi or inf and
+# -inf.
 SIGNED_ZEROS = {
     "atan2(-2*x*y, 0.1 - x**2 + y**2)": lambda x, y: np.arctan2(-2 * x * y, 0.1 - x**2 + y**2),
-    "atan2(0 - 2*x*y, 0.1 - x**2 + y**2)": lambda x, y: np.arctan2(0 - 2 * x * y, 0.1 - x**2 + y**2),
+    "atan2(0 - 2*x*y, 0.1 - x**2 + y**2)": lambda x, y: np.arctan2(
+        0 - 2 * x * y, 0.1 - x**2 + y**2
+    ),
     "atan2(-y, -1)": lambda x, y: np.arctan2(-y, -1.0),
     "atan2(-(x*y), -1)": lambda x, y: np.arctan2(-(x * y), -1.0),
     "atan2(-0.0*x, -1)": lambda x, y: np.arctan2(-0.0 * x, -1.0),
@@ -312,7 +319,9 @@ def test_zeros_keep_their_sign_as_in_numpy(text):
 
 
 def test_derivatives_on_the_cut_are_those_of_either_side():
-    """phi = arg(c - conj(z)**2): the sign of its zero picks pi or -pi, and both branches have the same slopes."""
+    """phi = arg(c - conj(z)**2): the sign of its zero picks pi or -pi, and both branches have the
+    same slopes.
+    """
     u = Formula("atan2(-2*x*y, 0.1 - x**2 + y**2)")
     value, ux, uy = u.value_and_gradient(1.0, 0.0)
     assert (value, ux, uy) == (-math.pi, 0.0, pytest.approx(2 / 0.9))
@@ -328,7 +337,12 @@ def test_half_a_power_of_zero_has_no_sign():
 
 
 NOT_FINITE = {
-    "square root": ("sqrt(x)", [1.0, -0.1, -0.2], [0.0, 0.3, 0.0], "value is nan at (x, y) = (-0.1, 0.3)"),
+    "square root": (
+        "sqrt(x)",
+        [1.0, -0.1, -0.2],
+        [0.0, 0.3, 0.0],
+        "value is nan at (x, y) = (-0.1, 0.3)",
+    ),
     "power": ("x**0.3", [-1.0], [2.0], "value is nan at (x, y) = (-1.0, 2.0)"),
     "half power": ("x**1.5", [-1.0], [2.0], "value is nan at (x, y) = (-1.0, 2.0)"),
     "pole": ("1/(x - y)", [1.0, 0.1], [0.5, 0.1], "value is inf at (x, y) = (0.1, 0.1)"),
@@ -400,7 +414,9 @@ def test_radius_has_the_same_bits_with_and_without_scaling(monkeypatch):
     np.testing.assert_array_equal(values.hypot(x, y), plain)
 
 
-@pytest.mark.parametrize(("text", "degree"), [("x**3", 3), ("r**(3/2)", 1.5), ("r**-2", -2), ("sqrt(x*y)", 1)])
+@pytest.mark.parametrize(
+    ("text", "degree"), [("x**3", 3), ("r**(3/2)", 1.5), ("r**-2", -2), ("sqrt(x*y)", 1)]
+)
 @pytest.mark.parametrize("k", [-80, 2, 80])
 def test_powers_scale_exactly(text, degree, k):
     x, y = np.random.default_rng(2).uniform(0.1, 9, size=(2, 200))
@@ -410,13 +426,19 @@ def test_powers_scale_exactly(text, degree, k):
 
 def test_small_powers_are_products():
     x = np.random.default_rng(6).uniform(0.1, 9, size=2000)
-    for text, product in (("x**3", x * x * x), ("x**(3/2)", np.sqrt(x) * x), ("x**-5", 1 / (x * x * x * x * x))):
+    for text, product in (
+        ("x**3", x * x * x),
+        ("x**(3/2)", np.sqrt(x) * x),
+        ("x**-5", 1 / (x * x * x * x * x)),
+    ):
         np.testing.assert_array_equal(Formula(text)(x, 0.0), product)
 
 
 def test_varying_exponent_is_treated_alike_at_one_point_and_many():
     x = np.random.default_rng(7).uniform(0.1, 9, size=2000)
-    np.testing.assert_array_equal(Formula("x**y")(x, np.full(2000, 7.5)), [Formula("x**y")(t, 7.5) for t in x])
+    np.testing.assert_array_equal(
+        Formula("x**y")(x, np.full(2000, 7.5)), [Formula("x**y")(t, 7.5) for t in x]
+    )
 
 
 def test_value_does_not_depend_on_neighbours():
@@ -424,7 +446,9 @@ def test_value_does_not_depend_on_neighbours():
     x, y = np.random.default_rng(3).uniform(0.1, 2, size=(2, 37))
     alone = [float(formula(a, b)) for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(formula(x, y), alone, rtol=1e-15)
-    np.testing.assert_array_equal(Formula("x**3*r")(x, y), [Formula("x**3*r")(*p) for p in zip(x, y, strict=True)])
+    np.testing.assert_array_equal(
+        Formula("x**3*r")(x, y), [Formula("x**3*r")(*p) for p in zip(x, y, strict=True)]
+    )
 
 
 # The module itself
@@ -438,7 +462,9 @@ def test_reading_does_not_import_numpy():
         "f.gradient(); f.variables; hash(f); assert 'numpy' not in sys.modules"
     )
     source = Path(signorini.formula.__file__).parents[2]
-    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": str(source)})
+    subprocess.run(
+        [sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": str(source)}
+    )
 
 
 def test_examples_of_the_documentation():

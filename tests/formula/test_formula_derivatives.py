@@ -28,7 +28,11 @@ DERIVATIVES = {
         0 * X,
     ),
     "pos(x - 0.3)**3": (3 * np.maximum(X - 0.3, 0) ** 2, 0 * X, 6 * np.maximum(X - 0.3, 0)),
-    "where(x > 0.1, x**2, y**2)": (np.where(X > 0.1, 2 * X, 0), np.where(X > 0.1, 0, 2 * Y), 2 + 0 * X),
+    "where(x > 0.1, x**2, y**2)": (
+        np.where(X > 0.1, 2 * X, 0),
+        np.where(X > 0.1, 0, 2 * Y),
+        2 + 0 * X,
+    ),
     "where(x > 0, x**1.5, 0)": (
         1.5 * np.maximum(X, 0) ** 0.5,
         0 * X,
@@ -69,12 +73,16 @@ def test_derivative_at_a_kink_is_that_of_the_branch_taken(text, x, slope):
 
 
 def test_singular_function_is_harmonic_with_its_normal_derivative_on_the_contact_side():
-    """E1 = Re z^(3/2): gradient (3/2) (Re, -Im) z^(1/2); du/dn = -du/dy = (3/2) sqrt(r) at x < 0, y = 0."""
+    """E1 = Re z^(3/2): gradient (3/2) (Re, -Im) z^(1/2); du/dn = -du/dy = (3/2) sqrt(r) at x < 0, y
+    = 0.
+    """
     u = Formula("r**(3/2)*cos(3*theta/2)")
     x, y = np.random.default_rng(4).uniform([[-1], [0]], 1, size=(2, 500))
     root = np.sqrt(x + 1j * y)
     _, ux, uy = u.value_and_gradient(x, y)
-    np.testing.assert_allclose([ux, uy], [1.5 * root.real, -1.5 * root.imag], rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(
+        [ux, uy], [1.5 * root.real, -1.5 * root.imag], rtol=1e-12, atol=1e-14
+    )
     assert np.max(abs(u.laplacian(x, y)) * np.sqrt(np.hypot(x, y))) < 1e-14
     for zero in (0.0, -0.0):
         np.testing.assert_allclose(-u.gradient()[1](-x * x, zero), 1.5 * abs(x), rtol=1e-14)
@@ -167,7 +175,11 @@ def test_derivatives_against_central_differences(text):
     u, h = Formula(text), 1e-5
     ux, uy = u.gradient()
     x, y = np.array([0.7, 1.1]), np.array([0.4, 0.6])
-    np.testing.assert_allclose(ux(x, y), (u(x + h, y) - u(x - h, y)) / (2 * h), rtol=1e-7, atol=1e-8)
-    np.testing.assert_allclose(uy(x, y), (u(x, y + h) - u(x, y - h)) / (2 * h), rtol=1e-7, atol=1e-8)
+    np.testing.assert_allclose(
+        ux(x, y), (u(x + h, y) - u(x - h, y)) / (2 * h), rtol=1e-7, atol=1e-8
+    )
+    np.testing.assert_allclose(
+        uy(x, y), (u(x, y + h) - u(x, y - h)) / (2 * h), rtol=1e-7, atol=1e-8
+    )
     second = (ux(x + h, y) - ux(x - h, y) + uy(x, y + h) - uy(x, y - h)) / (2 * h)
     np.testing.assert_allclose(u.laplacian(x, y), second, rtol=1e-7, atol=1e-7)

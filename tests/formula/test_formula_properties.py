@@ -1,4 +1,6 @@
-"""Properties of formulas under any text: an answer or an error; the bits of Python; derivatives by a complex step."""
+"""Properties of formulas under any text: an answer or an error; the bits of Python; derivatives by
+a complex step.
+"""
 
 import cmath
 import math
@@ -49,7 +51,11 @@ def test_any_text_is_a_formula_or_a_formula_error(text):
 
 
 @settings(max_examples=100, deadline=1000)
-@given(st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.binary(), st.lists(st.integers())))
+@given(
+    st.one_of(
+        st.none(), st.booleans(), st.integers(), st.floats(), st.binary(), st.lists(st.integers())
+    )
+)
 def test_any_value_is_a_number_or_a_formula_error(value):
     formula, message = attempt(value)
     assert message.isprintable()
@@ -128,11 +134,15 @@ ANALYTIC = st.recursive(
         st.builds("sqrt(2 + cos({}))".format, inner),
         st.builds("log(2 + sin({}))".format, inner),
         st.builds("exp(cos({}))".format, inner),
-        st.builds("(2 + sin({}))**{}".format, inner, st.sampled_from(["2", "-1", "1.5", "0.3", "cos(x)"])),
+        st.builds(
+            "(2 + sin({}))**{}".format, inner, st.sampled_from(["2", "-1", "1.5", "0.3", "cos(x)"])
+        ),
     ),
     max_leaves=6,
 )
-COMPLEX = {name: getattr(cmath, name) for name in ("sin", "cos", "tanh", "atan", "sqrt", "log", "exp")}
+COMPLEX = {
+    name: getattr(cmath, name) for name in ("sin", "cos", "tanh", "atan", "sqrt", "log", "exp")
+}
 
 
 @settings(max_examples=200, deadline=None)

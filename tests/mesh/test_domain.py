@@ -6,7 +6,13 @@ from signorini.mesh.domain import make_domain, read_domain, write_domain
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 
-SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-unit"}
+SQUARE = {
+    "kind": "rectangle",
+    "origin": [0, 0],
+    "size": [1, 1],
+    "diagonal": "falling",
+    "cells": "per-unit",
+}
 SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
 L_SHAPE = {
     "kind": "polygon",
@@ -35,7 +41,9 @@ def test_a_plain_rectangle_is_a_grid(diagonal):
 def test_other_patterns_cover_the_rectangle_and_its_sides(diagonal, n):
     mesh = make_domain(SQUARE | {"diagonal": diagonal, "size": [2, 1]}, SIDES, 1).level(n)
     assert np.sum(mesh.area) == pytest.approx(2.0, rel=1e-14)
-    assert [lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")] == pytest.approx([2.0, 2.0, 2.0])
+    assert [lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")] == pytest.approx(
+        [2.0, 2.0, 2.0]
+    )
 
 
 @pytest.mark.parametrize(("cells", "counts"), [("per-unit", (6, 4)), ("per-side", (4, 4))])
@@ -45,7 +53,9 @@ def test_cells_per_unit_and_per_side(cells, counts):
 
 
 def test_a_side_that_is_no_whole_number_of_cells_is_refused():
-    with pytest.raises(MeshError, match=r"domain\.size: level n = 2 cuts the x side into 2\.6 cells.*per-side"):
+    with pytest.raises(
+        MeshError, match=r"domain\.size: level n = 2 cuts the x side into 2\.6 cells.*per-side"
+    ):
         make_domain(SQUARE | {"size": [1.3, 1]}, SIDES, 2).level(2)
 
 
@@ -53,9 +63,18 @@ def test_a_side_that_is_no_whole_number_of_cells_is_refused():
 @pytest.mark.parametrize("offset", [0.0, 1e4, 1e6])
 def test_sides_are_found_at_any_scale_and_offset(scale, offset):
     origin = [offset * scale, -offset * scale]
-    domain = SQUARE | {"origin": origin, "size": [scale, scale], "cells": "per-side", "diagonal": "criss-cross"}
+    domain = SQUARE | {
+        "origin": origin,
+        "size": [scale, scale],
+        "cells": "per-side",
+        "diagonal": "criss-cross",
+    }
     mesh = make_domain(domain, SIDES, 8).level(8)
-    assert [mesh.boundary_facets(label).size for label in ("contact", "dirichlet", "neumann")] == [8, 8, 16]
+    assert [mesh.boundary_facets(label).size for label in ("contact", "dirichlet", "neumann")] == [
+        8,
+        8,
+        16,
+    ]
 
 
 def test_coordinates_without_resolution_are_refused():
@@ -69,7 +88,9 @@ def test_labels_by_formula_are_applied_on_every_level_and_rest_takes_the_rest():
         mesh = domain.level(n)
         assert lengths(mesh, "dirichlet") == pytest.approx(1.0)
         assert lengths(mesh, "contact") == pytest.approx(0.4, abs=1.0 / n)
-        assert sum(lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")) == pytest.approx(4.0)
+        assert sum(
+            lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")
+        ) == pytest.approx(4.0)
 
 
 def test_perturbed_levels_keep_area_and_sides_and_are_repeatable():
@@ -95,7 +116,9 @@ def test_a_polygon_is_refined_from_its_root_and_keeps_its_labels():
         mesh = domain.level(n)
         assert isinstance(mesh, Triangulation)
         assert np.sum(mesh.area) == pytest.approx(3.0)
-        assert [lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")] == pytest.approx([2.0, 2.0, 4.0])
+        assert [
+            lengths(mesh, label) for label in ("contact", "dirichlet", "neumann")
+        ] == pytest.approx([2.0, 2.0, 4.0])
     assert domain.level(8).coarser() is domain.level(4)
     assert domain.mesh_size(8) == 1 / 8
     assert domain.level(4).number_of_triangles == 4 * domain.level(2).number_of_triangles
@@ -109,7 +132,12 @@ def test_a_level_that_is_no_refinement_is_refused(n):
 
 @pytest.mark.parametrize(
     ("domain", "boundary"),
-    [(SQUARE, SIDES), (SQUARE | {"diagonal": "criss-cross"}, SIDES), (SQUARE, BY_FORMULA), (L_SHAPE, L_LABELS)],
+    [
+        (SQUARE, SIDES),
+        (SQUARE | {"diagonal": "criss-cross"}, SIDES),
+        (SQUARE, BY_FORMULA),
+        (L_SHAPE, L_LABELS),
+    ],
     ids=["grid", "pattern", "formula", "polygon"],
 )
 def test_a_domain_survives_storage(tmp_path, domain, boundary):
@@ -120,4 +148,6 @@ def test_a_domain_survives_storage(tmp_path, domain, boundary):
         assert read.level(n).same_as(made.level(n))
         assert read.mesh_size(n) == made.mesh_size(n)
         for label in ("contact", "dirichlet", "neumann"):
-            assert np.array_equal(read.level(n).boundary_facets(label), made.level(n).boundary_facets(label))
+            assert np.array_equal(
+                read.level(n).boundary_facets(label), made.level(n).boundary_facets(label)
+            )

@@ -24,7 +24,9 @@ def renumbered(mesh, seed=0):
 
 MESHES = {
     "delaunay": lambda: delaunay(0),
-    "one triangle": lambda: Triangulation(np.eye(2, 3, 1), [[2], [0], [1]], {"contact": [[0, 1, 2], [1, 2, 0]]}),
+    "one triangle": lambda: Triangulation(
+        np.eye(2, 3, 1), [[2], [0], [1]], {"contact": [[0, 1, 2], [1, 2, 0]]}
+    ),
     "grid": lambda: Triangulation.from_skfem(grid(4, 3).skfem),
     "renumbered": lambda: renumbered(perturbed(5)),
     "bisected": lambda: renumbered(bisected(l_shape(), towards(corner), 500)),
@@ -71,7 +73,9 @@ def test_many_facets_are_those_of_a_general_sort():
     """As many as are sorted by counting without being told to."""
     mesh = renumbered(bisected(l_shape(), towards(corner), 25_000))
     assert mesh.t.size > facets._FEW
-    for found, expected in zip((mesh.facets, mesh.t2f), by_general_sort(mesh.t, mesh.number_of_vertices), strict=True):
+    for found, expected in zip(
+        (mesh.facets, mesh.t2f), by_general_sort(mesh.t, mesh.number_of_vertices), strict=True
+    ):
         np.testing.assert_array_equal(found, expected)
 
 
@@ -87,7 +91,9 @@ def test_numbers_take_32_bits_whatever_they_come_in(mesh, wide):
     ends = {label: pairs.astype(wide) for label, pairs in mesh.ends.items()}
     mesh = Triangulation(mesh.p, mesh.t.astype(wide), ends)
     for _ in range(3):
-        assert {a.dtype for a in (mesh.t, mesh.facets, mesh.t2f, *mesh.ends.values())} == {np.dtype(np.int32)}
+        assert {a.dtype for a in (mesh.t, mesh.facets, mesh.t2f, *mesh.ends.values())} == {
+            np.dtype(np.int32)
+        }
         assert {mesh.boundary_facets(label).dtype for label in LABELS} == {np.dtype(np.int32)}
         mesh = mesh.refined()
 
@@ -114,7 +120,9 @@ def test_a_label_on_what_is_no_facet_is_refused():
     names = {label: mesh.facets[:, k] for label, k in mesh.boundaries.items()}
     across = np.array([[0], [8]])
     names["contact"] = np.hstack([names["contact"], across])
-    with pytest.raises(MeshError, match=r"1 facets labelled contact are no side .* from \(0, 0\) to \(1, 1\)"):
+    with pytest.raises(
+        MeshError, match=r"1 facets labelled contact are no side .* from \(0, 0\) to \(1, 1\)"
+    ):
         Triangulation(mesh.p, mesh.t, names)
 
 

@@ -7,7 +7,15 @@ from skfem import MeshTri
 from builders import grid
 from signorini.mesh.boundary import SIDES
 
-SHAPES = {"1x1": (1, 1), "1x4": (1, 4), "4x1": (4, 1), "2x2": (2, 2), "3x2": (3, 2), "2x3": (2, 3), "6x4": (6, 4)}
+SHAPES = {
+    "1x1": (1, 1),
+    "1x4": (1, 4),
+    "4x1": (4, 1),
+    "2x2": (2, 2),
+    "3x2": (3, 2),
+    "2x3": (2, 3),
+    "6x4": (6, 4),
+}
 NESTED = {"2x2": (2, 2), "2x4": (2, 4), "6x4": (6, 4), "8x2": (8, 2)}
 
 
@@ -39,11 +47,15 @@ def test_every_boundary_facet_lies_on_one_side(mesh):
     found = np.sort(np.concatenate([mesh.side_facets(side) for side in SIDES]))
     np.testing.assert_array_equal(found, mesh.skfem.boundary_facets())
     for label in set(mesh.labels):
-        np.testing.assert_array_equal(mesh.boundary_facets(label), np.sort(mesh.skfem.boundaries[label]))
+        np.testing.assert_array_equal(
+            mesh.boundary_facets(label), np.sort(mesh.skfem.boundaries[label])
+        )
         assert np.all(np.diff(mesh.boundary_vertices(label)) > 0)
 
 
-@pytest.mark.parametrize(("side", "axis", "end"), [("bottom", 1, 0), ("right", 0, -1), ("top", 1, -1), ("left", 0, 0)])
+@pytest.mark.parametrize(
+    ("side", "axis", "end"), [("bottom", 1, 0), ("right", 0, -1), ("top", 1, -1), ("left", 0, 0)]
+)
 def test_sides_lie_where_their_names_say(mesh, side, axis, end):
     line = (mesh.x, mesh.y)[axis][end]
     vertices = mesh.p[:, mesh.side_vertices(side)]
@@ -82,13 +94,19 @@ def test_the_rectangle_ends_exactly_where_it_should():
 def test_splitting_the_edges_sorts_them_by_direction(mesh):
     every = np.arange(mesh.number_of_facets)
     parts = mesh.split_edges(every)
-    assert [part.shape for part in parts] == [(mesh.ny + 1, mesh.nx), (mesh.ny, mesh.nx + 1), (mesh.ny, mesh.nx)]
+    assert [part.shape for part in parts] == [
+        (mesh.ny + 1, mesh.nx),
+        (mesh.ny, mesh.nx + 1),
+        (mesh.ny, mesh.nx),
+    ]
     np.testing.assert_array_equal(mesh.join_edges(*parts), every)
     hx, hy = mesh.spacing
     start, end = (mesh.p[:, ends] for ends in mesh.facets)
     for part, extent in zip(parts, ((hx, 0), (0, hy), (hx, hy)), strict=True):
         found = np.abs(end - start)[:, part.ravel()]
-        np.testing.assert_allclose(found, np.broadcast_to(np.reshape(extent, (2, 1)), found.shape), rtol=0, atol=1e-14)
+        np.testing.assert_allclose(
+            found, np.broadcast_to(np.reshape(extent, (2, 1)), found.shape), rtol=0, atol=1e-14
+        )
 
 
 def test_coarser_keeps_every_second_vertex(nested):
@@ -104,13 +122,17 @@ def test_an_odd_grid_has_none_coarser(shape):
 
 
 def test_children_halve_their_parent(nested):
-    """As documented: local vertex i of child k is the midpoint of i and k, of child 3 that of the two others."""
+    """As documented: local vertex i of child k is the midpoint of i and k, of child 3 that of the
+    two others.
+    """
     parent = nested.coarser()
     corners = np.stack([parent.p[:, v] for v in parent.t])
     for axis in range(2):
         family = nested.vertex_children(nested.p[axis][nested.t])
         for k, i in np.ndindex(3, 3):
-            np.testing.assert_allclose(family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), rtol=0, atol=1e-14)
+            np.testing.assert_allclose(
+                family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), rtol=0, atol=1e-14
+            )
         for i in range(3):
             others = corners[(i + 1) % 3, axis] + corners[(i + 2) % 3, axis]
             np.testing.assert_allclose(family[3, i], 0.5 * others, rtol=0, atol=1e-14)
@@ -118,13 +140,17 @@ def test_children_halve_their_parent(nested):
 
 def test_from_vertex_children_undoes_vertex_children(nested):
     values = np.random.default_rng(0).random((3, nested.number_of_triangles))
-    np.testing.assert_array_equal(nested.from_vertex_children(nested.vertex_children(values)), values)
+    np.testing.assert_array_equal(
+        nested.from_vertex_children(nested.vertex_children(values)), values
+    )
 
 
 def test_the_gradient_of_an_affine_function_is_constant(mesh):
     x, y = mesh.p
     gradients = mesh.gradients(mesh.corner_values(2 * x - 5 * y + 1))
-    np.testing.assert_allclose(gradients, np.broadcast_to([[2.0], [-5.0]], gradients.shape), rtol=1e-12)
+    np.testing.assert_allclose(
+        gradients, np.broadcast_to([[2.0], [-5.0]], gradients.shape), rtol=1e-12
+    )
 
 
 def test_corner_values_are_those_at_the_vertices_of_each_triangle(mesh):

@@ -41,9 +41,12 @@ def test_facets_have_scikit_fem_numbers_and_labels_survive_refinement():
     for label, facets in found.items():
         assert np.array_equal(labelled(MESH, RULES).boundary_facets(label), facets)
         assert fine.boundary_facets(label).size == 16 * facets.size // 4
-        assert set(map(tuple, np.abs(midpoints(fine, fine.boundary_facets(label)) - 0.5).max(axis=0)[:, None])) == {
-            (0.5,)
-        }
+        assert set(
+            map(
+                tuple,
+                np.abs(midpoints(fine, fine.boundary_facets(label)) - 0.5).max(axis=0)[:, None],
+            )
+        ) == {(0.5,)}
     assert (fine.p[1, fine.boundary_vertices("contact")] == 0).all()
 
 
@@ -74,7 +77,11 @@ def test_formulas_select_by_their_sign_at_midpoints():
     found = label_boundary(MESH, rules)
     # 0.4 lies inside the fourth facet, whose midpoint is at 0.4375.
     assert midpoints(MESH, found["contact"])[0].tolist() == [0.0625, 0.1875, 0.3125]
-    assert {label: facets.size for label, facets in found.items()} == {"dirichlet": 8, "contact": 3, "neumann": 21}
+    assert {label: facets.size for label, facets in found.items()} == {
+        "dirichlet": 8,
+        "contact": 3,
+        "neumann": 21,
+    }
 
 
 def test_a_constant_formula_selects_all():
@@ -91,7 +98,10 @@ def test_two_rules_may_give_a_facet_the_same_label():
 REFUSED = {
     # case: (rules, words of the message)
     "no rules": ([], "32 boundary facets of rectangle have no label"),
-    "no label": (list(RULES.items())[1:], "8 boundary facets of rectangle have no label: facet 0 at (0.0625, 0), "),
+    "no label": (
+        list(RULES.items())[1:],
+        "8 boundary facets of rectangle have no label: facet 0 at (0.0625, 0), ",
+    ),
     "two labels": (
         [*RULES.items(), (formula("0.1 - x"), "contact")],
         "9 boundary facets of rectangle have more than one label",
@@ -130,7 +140,11 @@ def test_a_formula_that_is_not_finite_names_itself():
 
 def test_parts_inside_the_domain_or_across_it_are_refused():
     mesh = alternating(2, 2, (0, 0), (2, 2))
-    for ends, words in (((3, 4), "lies inside"), ((0, 8), "is no side"), ((0, -1), "a vertex to another is no side")):
+    for ends, words in (
+        ((3, 4), "lies inside"),
+        ((0, 8), "is no side"),
+        ((0, -1), "a vertex to another is no side"),
+    ):
         named = NamedMesh(mesh.p, mesh.t, mesh.parts | {"cut": np.array([ends]).T})
         with pytest.raises(MeshError, match=f"part 'cut': the line .*{words}"):
             label_boundary(named, RULES | {"cut": "contact"})
@@ -144,12 +158,18 @@ def test_minimum_angle():
 @given(
     parts=st.lists(st.tuples(st.sampled_from(sorted(RULES)), st.sampled_from(LABELS)), max_size=6),
     lines=st.lists(
-        st.tuples(st.integers(-8, 8), st.integers(-8, 8), st.integers(-9, 9), st.sampled_from(LABELS)), max_size=3
+        st.tuples(
+            st.integers(-8, 8), st.integers(-8, 8), st.integers(-9, 9), st.sampled_from(LABELS)
+        ),
+        max_size=3,
     ),
 )
 @settings(max_examples=100, deadline=None)
 def test_random_rules_label_every_facet_once_or_are_refused(parts, lines):
-    rules = [*parts, *((formula(f"({a})*x + ({b})*y + ({c})/8"), label) for a, b, c, label in lines)]
+    rules = [
+        *parts,
+        *((formula(f"({a})*x + ({b})*y + ({c})/8"), label) for a, b, c, label in lines),
+    ]
     x, y = midpoints(MESH, MESH.boundary)
     on = {"bottom": y == 0, "right": x == 1, "top": y == 1, "left": x == 0}
     expected = {}
@@ -165,4 +185,6 @@ def test_random_rules_label_every_facet_once_or_are_refused(parts, lines):
         assert not sound
     else:
         assert sound
-        assert all(np.array_equal(found[label], MESH.boundary[mask]) for label, mask in expected.items())
+        assert all(
+            np.array_equal(found[label], MESH.boundary[mask]) for label, mask in expected.items()
+        )

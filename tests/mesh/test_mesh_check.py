@@ -80,34 +80,78 @@ BROKEN = {
     "index negative": (renumbered(3, 1, -1), "triangle 3 uses vertex -1"),
     "vertex twice in a triangle": (renumbered(0, 1, 0), "triangle 0 at (0, 0) has zero area"),
     "repeated vertex": (moved(4, 1, 0), "vertices 1 and 4 are both at (1, 0)"),
-    "repeated vertex up to round-off": (moved(4, 1 + 2e-16, 0), "vertices 1 and 4 are both at (1, 0)"),
+    "repeated vertex up to round-off": (
+        moved(4, 1 + 2e-16, 0),
+        "vertices 1 and 4 are both at (1, 0)",
+    ),
     "two halves not glued": (unglued(), "repeated vertex"),
-    "zero area": ((np.array([[0.0, 1, 2, 0], [0, 1, 2, 2]]), np.array([[0, 0], [1, 2], [2, 3]])), "has zero area"),
-    "area of round-off": ((np.array([[0, 0.1, 0.3, 0], [0, 0.1, 0.3, 1]]), np.array([[0], [1], [2]])), "zero area"),
-    "mesh on a line": ((np.array([[0.0, 1, 2], [3, 3, 3]]), np.array([[0], [1], [2]])), "every vertex has y = 3"),
+    "zero area": (
+        (np.array([[0.0, 1, 2, 0], [0, 1, 2, 2]]), np.array([[0, 0], [1, 2], [2, 3]])),
+        "has zero area",
+    ),
+    "area of round-off": (
+        (np.array([[0, 0.1, 0.3, 0], [0, 0.1, 0.3, 1]]), np.array([[0], [1], [2]])),
+        "zero area",
+    ),
+    "mesh on a line": (
+        (np.array([[0.0, 1, 2], [3, 3, 3]]), np.array([[0], [1], [2]])),
+        "every vertex has y = 3",
+    ),
     "duplicate element": (extended([], [(3, 1, 0)]), "have the same vertices: a duplicate element"),
-    "facet in three elements": (extended([(-1, -1)], [(0, 1, 9), (0, 1, 8)]), "(vertices 0, 1) belongs to 3 triangles"),
-    "overlap on one side": (extended([(0.5, 0.9)], [(0, 1, 9)]), "has both its triangles on one side"),
+    "facet in three elements": (
+        extended([(-1, -1)], [(0, 1, 9), (0, 1, 8)]),
+        "(vertices 0, 1) belongs to 3 triangles",
+    ),
+    "overlap on one side": (
+        extended([(0.5, 0.9)], [(0, 1, 9)]),
+        "has both its triangles on one side",
+    ),
     "overlap by a fold": (moved(4, 5, 1), "on one side"),
-    "overlap of two pieces": (extended([(1.5, 1.5), (5, 2), (5, 4)], [(9, 10, 11)]), "triangles overlap"),
-    "overlap by a piece inside": (extended([(0.1, 0.2), (0.2, 0.2), (0.2, 0.3)], [(9, 10, 11)]), "triangles overlap"),
+    "overlap of two pieces": (
+        extended([(1.5, 1.5), (5, 2), (5, 4)], [(9, 10, 11)]),
+        "triangles overlap",
+    ),
+    "overlap by a piece inside": (
+        extended([(0.1, 0.2), (0.2, 0.2), (0.2, 0.3)], [(9, 10, 11)]),
+        "triangles overlap",
+    ),
     "overlap at a vertex": (extended([(0.2, 0.1), (0.2, 0.3)], [(0, 9, 10)]), "triangles overlap"),
     "overlap by winding twice": (wound_twice(), "overlap"),
-    "hanging node": (hanging(), "vertex 4 at (0.5, 0.5) lies inside the facet from (0, 0) to (1, 1)"),
+    "hanging node": (
+        hanging(),
+        "vertex 4 at (0.5, 0.5) lies inside the facet from (0, 0) to (1, 1)",
+    ),
     "hanging node up to round-off": (
         (hanging()[0] + [[0, 0, 0, 0, 1e-15], [0, 0, 0, 0, -1e-15]], hanging()[1]),
         "a hanging node",
     ),
-    "touching pieces": (extended([(2, 0.5), (3, 0), (3, 1)], [(9, 10, 11)]), "vertex 9 at (2, 0.5) lies inside"),
+    "touching pieces": (
+        extended([(2, 0.5), (3, 0), (3, 1)], [(9, 10, 11)]),
+        "vertex 9 at (2, 0.5) lies inside",
+    ),
     "empty mesh": ((np.zeros((2, 0)), np.zeros((3, 0), dtype=int)), "the mesh is empty"),
     "no triangles": ((square()[0], np.zeros((3, 0), dtype=int)), "the mesh is empty"),
     "shape of vertices": ((square()[0].T, square()[1]), "vertices have shape (9, 2)"),
-    "quadrilaterals": ((square()[0], np.array([[0], [1], [4], [3]])), "triangles have shape (4, 1)"),
-    "numbers that are no integers": ((square()[0], square()[1] * 1.0), "type float64; give integers"),
-    "coordinates near overflow": (((square()[0] - 1) * 1.7e308, square()[1]), "larger unit of length"),
+    "quadrilaterals": (
+        (square()[0], np.array([[0], [1], [4], [3]])),
+        "triangles have shape (4, 1)",
+    ),
+    "numbers that are no integers": (
+        (square()[0], square()[1] * 1.0),
+        "type float64; give integers",
+    ),
+    "coordinates near overflow": (
+        ((square()[0] - 1) * 1.7e308, square()[1]),
+        "larger unit of length",
+    ),
     "too many pieces": (
         (
-            np.array([np.repeat(np.arange(1001), 3) * 2 + np.tile([0, 1, 0], 1001), np.tile([0.0, 0, 1], 1001)]),
+            np.array(
+                [
+                    np.repeat(np.arange(1001), 3) * 2 + np.tile([0, 1, 0], 1001),
+                    np.tile([0.0, 0, 1], 1001),
+                ]
+            ),
             np.arange(3003).reshape(1001, 3).T,
         ),
         f"too intricate to verify ({MAX_LOOPS + 1} loops",
@@ -160,8 +204,12 @@ def test_clockwise_elements_are_accepted_and_turned():
 
 def test_unreferenced_vertices_are_dropped_with_a_warning():
     p, t = square()
-    with pytest.warns(UserWarning, match=r"2 vertices belong to no triangle and are dropped \(0, 5\)"):
-        q, s, vertex_map = check_triangulation(np.insert(p, [0, 4], 7.0, axis=1), np.where(t < 4, t + 1, t + 2))
+    with pytest.warns(
+        UserWarning, match=r"2 vertices belong to no triangle and are dropped \(0, 5\)"
+    ):
+        q, s, vertex_map = check_triangulation(
+            np.insert(p, [0, 4], 7.0, axis=1), np.where(t < 4, t + 1, t + 2)
+        )
     assert np.array_equal(q, p)
     assert np.array_equal(s, t)
     assert list(vertex_map) == [-1, 0, 1, 2, 3, -1, 4, 5, 6, 7, 8]
@@ -179,7 +227,10 @@ ACCEPTED = {
     "strip of aspect 1e-8": (square(8)[0] * [[1], [1e-8]], square(8)[1]),
     "strip far out along its length": (square(8)[0] * [[1], [1e-8]] + [[1e6], [0]], square(8)[1]),
     "graded by 1e-8": (square(8)[0] ** 9 / 8**9, square(8)[1]),
-    "needle triangle": (np.array([[0.0, 1, 1, 0], [0, 0, 1e-8, 1]]), np.array([[0, 0], [1, 2], [2, 3]])),
+    "needle triangle": (
+        np.array([[0.0, 1, 1, 0], [0, 0, 1e-8, 1]]),
+        np.array([[0, 0], [1, 2], [2, 3]]),
+    ),
 }
 
 
@@ -192,7 +243,8 @@ def test_accepted(case):
 
 
 @pytest.mark.parametrize(
-    "case", [case for case in BROKEN if case.startswith(("overlap", "hanging", "repeated", "facet"))]
+    "case",
+    [case for case in BROKEN if case.startswith(("overlap", "hanging", "repeated", "facet"))],
 )
 @pytest.mark.filterwarnings("ignore:.*belong to no triangle")
 def test_the_verdict_does_not_depend_on_the_numbering(case):
@@ -228,7 +280,8 @@ def is_triangulation(points, triangles):
     def apart(s, t):
         """Whether a side of one triangle separates the interiors (s, t counterclockwise)."""
         return any(
-            all(turn(s[k], s[k - 2], v) <= 0 for v in t) or all(turn(t[k], t[k - 2], v) <= 0 for v in s)
+            all(turn(s[k], s[k - 2], v) <= 0 for v in t)
+            or all(turn(t[k], t[k - 2], v) <= 0 for v in s)
             for k in range(3)
         )
 
@@ -281,11 +334,15 @@ def corrupted(corruptions):
 def test_random_corruptions_are_judged_as_the_definition_does(corruptions):
     points, triangles = corrupted(corruptions)
     sound = all(0 <= v < len(points) for t in triangles for v in t) and np.isfinite(points).all()
-    sound = sound and is_triangulation([(int(x), int(y)) for x, y in points], [tuple(t) for t in triangles])
+    sound = sound and is_triangulation(
+        [(int(x), int(y)) for x, y in points], [tuple(t) for t in triangles]
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            p, t, _ = check_triangulation(np.array(points).T, np.array(triangles, dtype=int).reshape(-1, 3).T)
+            p, t, _ = check_triangulation(
+                np.array(points).T, np.array(triangles, dtype=int).reshape(-1, 3).T
+            )
         except MeshError:
             assert not sound
         else:

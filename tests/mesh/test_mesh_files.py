@@ -1,4 +1,6 @@
-"""Which files a mesh file stands for, held against what reading it opens, in every format that can be written."""
+"""Which files a mesh file stands for, held against what reading it opens, in every format that can
+be written.
+"""
 
 import json
 import os
@@ -16,7 +18,10 @@ meshio = pytest.importorskip("meshio")
 h5py = pytest.importorskip("h5py")
 
 POINTS = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-CELLS = [("line", np.array([[0, 1], [1, 2], [2, 3], [3, 0]])), ("triangle", np.array([[0, 1, 2], [0, 2, 3]]))]
+CELLS = [
+    ("line", np.array([[0, 1], [1, 2], [2, 3], [3, 0]])),
+    ("triangle", np.array([[0, 1, 2], [0, 2, 3]])),
+]
 TAGS = {"tag": [np.array([1, 2, 3, 4]), np.array([7, 8])]}
 
 # Prints the files that reading each of the arguments opens; HDF5 opens its own, unseen by Python.

@@ -1,4 +1,6 @@
-"""Mesh files made to do harm: refused by name, within limits of memory and time, whatever is in them."""
+"""Mesh files made to do harm: refused by name, within limits of memory and time, whatever is in
+them.
+"""
 
 import base64
 import json
@@ -56,8 +58,9 @@ def huge(text, pattern):
     return re.sub(pattern, rf"\g<1>{10**12}\g<2>", text, count=1, flags=re.MULTILINE)
 
 
-XDMF = '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY"><DataItem Dimensions="3 2" Format="{}">{}</DataItem>' + (
-    "</Geometry></Grid></Domain></Xdmf>"
+XDMF = (
+    '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY"><DataItem Dimensions="3 2" Format="{}">{}</DataItem>'
+    + ("</Geometry></Grid></Domain></Xdmf>")
 )
 
 HOSTILE = {
@@ -65,9 +68,17 @@ HOSTILE = {
     "10^12 nodes": ("a.msh", gmsh(nodes=10**12), "a.msh: "),
     "10^12 nodes in 4.1": ("b.msh", huge(GMSH41, r"^(1 )4( 1 4)$"), "promises 1000000000000 nodes"),
     "10^12 nodes in a block of 4.1": ("c.msh", huge(GMSH41, r"^(2 1 0 )4()$"), "c.msh: "),
-    "node number 10^12": ("d.msh", GMSH41.replace("\n4\n0 0 0\n", "\n1000000000000\n0 0 0\n"), "uses node 4, which"),
+    "node number 10^12": (
+        "d.msh",
+        GMSH41.replace("\n4\n0 0 0\n", "\n1000000000000\n0 0 0\n"),
+        "uses node 4, which",
+    ),
     "10^12 elements": ("e.msh", huge(GMSH41, r"^(2 1 2 )2()$"), "e.msh: "),
-    "10^12 elements in 2.2": ("f.msh", huge(gmsh(), r"(\$Elements\n)30(\n)"), "meshio cannot read it"),
+    "10^12 elements in 2.2": (
+        "f.msh",
+        huge(gmsh(), r"(\$Elements\n)30(\n)"),
+        "meshio cannot read it",
+    ),
     "10^12 names": ("g.msh", huge(gmsh(), r"(\$PhysicalNames\n)5(\n)"), "meshio cannot read it"),
     "10^12 points of a .vtu": (
         "h.vtu",
@@ -75,11 +86,21 @@ HOSTILE = {
         "meshio cannot read it",
     ),
     "entity bomb": ("i.vtu", vtu("&a11;", laughs()), "declares a DOCTYPE or ENTITY"),
-    "entity bomb in UTF-16": ("j.vtu", vtu("&a11;", laughs()).encode("utf-16"), "declares a DOCTYPE or ENTITY"),
-    "entity bomb in an .xdmf": ("k.xdmf", laughs() + XDMF.format("XML", "&a11;"), "declares a DOCTYPE or ENTITY"),
+    "entity bomb in UTF-16": (
+        "j.vtu",
+        vtu("&a11;", laughs()).encode("utf-16"),
+        "declares a DOCTYPE or ENTITY",
+    ),
+    "entity bomb in an .xdmf": (
+        "k.xdmf",
+        laughs() + XDMF.format("XML", "&a11;"),
+        "declares a DOCTYPE or ENTITY",
+    ),
     "entity bomb inside a text": (
         "l.xdmf",
-        "<Xdmf Version='3.0'><Domain><Grid><Information><![CDATA[" + laughs() + "<m>&a11;</m>]]></Information></Grid>"
+        "<Xdmf Version='3.0'><Domain><Grid><Information><![CDATA["
+        + laughs()
+        + "<m>&a11;</m>]]></Information></Grid>"
         "</Domain></Xdmf>",
         "declares a DOCTYPE or ENTITY",
     ),
@@ -88,13 +109,33 @@ HOSTILE = {
         vtu("&x;", '<!DOCTYPE VTKFile [<!ENTITY x SYSTEM "file:///etc/passwd">]>'),
         "declares a DOCTYPE or ENTITY",
     ),
-    "external document type": ("n.vtu", vtu(doctype='<!doctype a SYSTEM "http://x.org/a">'), "declares a DOCTYPE"),
-    "data elsewhere, HDF": ("o.xdmf", XDMF.format("HDF", "../secret.h5:/a"), "takes data from '../secret.h5'"),
-    "data elsewhere, binary": ("p.xdmf", XDMF.format("Binary", "/etc/passwd"), "takes data from '/etc/passwd'"),
-    "data elsewhere, hidden": ("q.xdmf", XDMF.format("&#72;DF", "/etc/x:/a"), "takes data from '/etc/x'"),
+    "external document type": (
+        "n.vtu",
+        vtu(doctype='<!doctype a SYSTEM "http://x.org/a">'),
+        "declares a DOCTYPE",
+    ),
+    "data elsewhere, HDF": (
+        "o.xdmf",
+        XDMF.format("HDF", "../secret.h5:/a"),
+        "takes data from '../secret.h5'",
+    ),
+    "data elsewhere, binary": (
+        "p.xdmf",
+        XDMF.format("Binary", "/etc/passwd"),
+        "takes data from '/etc/passwd'",
+    ),
+    "data elsewhere, hidden": (
+        "q.xdmf",
+        XDMF.format("&#72;DF", "/etc/x:/a"),
+        "takes data from '/etc/x'",
+    ),
     "included file": ("r.inp", "*NODE\n*include, input=/etc/passwd\n", "includes another file"),
     "compressed zeros": ("s.vtu", inflating, "memory than its size explains"),
-    "SystemExit": ("t.vtu", vtu().replace("UnstructuredGrid", "Nothing"), "t.vtu: meshio cannot read it"),
+    "SystemExit": (
+        "t.vtu",
+        vtu().replace("UnstructuredGrid", "Nothing"),
+        "t.vtu: meshio cannot read it",
+    ),
     "not XML": ("u.vtu", "\x00\x01", "meshio cannot read it"),
     "unknown kind": ("v.exe", gmsh(), "unknown kind of mesh file '.exe'; known: "),
     "no ending": ("w", gmsh(), "unknown kind of mesh file ''"),
@@ -121,7 +162,9 @@ print(json.dumps(answers))
 
 @pytest.fixture(scope="module")
 def verdicts(tmp_path_factory):
-    """Every hostile file read by one process under a memory cap: case -> (verdict, message, seconds)."""
+    """Every hostile file read by one process under a memory cap: case -> (verdict, message,
+    seconds).
+    """
     folder = tmp_path_factory.mktemp("hostile")
     paths = {}
     for case, (name, content, _) in HOSTILE.items():
@@ -151,7 +194,9 @@ def test_hostile_files_are_refused_under_a_memory_cap(verdicts, case):
 
 @pytest.mark.parametrize("megabytes", [63, 80])
 def test_what_a_file_decompresses_to_is_counted(monkeypatch, write, megabytes):
-    """80 kB of zeros: what is decompressed stops one byte beyond the limit, 64 MiB and 50 times the file's size."""
+    """80 kB of zeros: what is decompressed stops one byte beyond the limit, 64 MiB and 50 times the
+    file's size.
+    """
     path = write(zlib_block(megabytes), "bomb.vtu")
     limit, lengths = inflate.most(path.stat().st_size), []
     decompress = inflate.Counted.decompress
@@ -167,7 +212,9 @@ def test_what_a_file_decompresses_to_is_counted(monkeypatch, write, megabytes):
         parse(path)
     bomb = megabytes * 2**20 > limit
     assert bomb == (megabytes == 80)
-    assert ("asks for more memory than its size explains, once decompressed" in str(caught.value)) == bomb
+    assert (
+        "asks for more memory than its size explains, once decompressed" in str(caught.value)
+    ) == bomb
     assert lengths == [limit + 1 if bomb else megabytes * 2**20]
 
 
@@ -209,10 +256,14 @@ def hdf5(path, **datasets):
 def test_arrays_of_an_hdf5_file_are_counted_before_they_are_read(tmp_path, write):
     hdf5(tmp_path / "bomb.h5", data0=(2**24, 2))
     path = write(XDMF.format("HDF", "bomb.h5:/data0"), "bomb.xdmf")
-    with pytest.raises(MeshError, match=r"^bomb\.xdmf: asks for more memory than its size explains, once"):
+    with pytest.raises(
+        MeshError, match=r"^bomb\.xdmf: asks for more memory than its size explains, once"
+    ):
         parse(path)
     hdf5(tmp_path / "bomb.med", ENS_MAA=(2**24, 2))
-    with pytest.raises(MeshError, match=r"^bomb\.med: asks for more memory than its size explains, once"):
+    with pytest.raises(
+        MeshError, match=r"^bomb\.med: asks for more memory than its size explains, once"
+    ):
         parse(tmp_path / "bomb.med")
     hdf5(tmp_path / "half.med", a=(2**21, 2), b=(2**20, 2))
     with pytest.raises(MeshError, match=r"^half\.med: meshio cannot read it"):
@@ -232,7 +283,9 @@ def test_an_hdf5_file_takes_nothing_from_others(tmp_path, kind):
             layout = h5py.VirtualLayout((2**16, 2), dtype="f8")
             layout[:] = h5py.VirtualSource(str(other), "a", shape=(2**16, 2))
             file.create_virtual_dataset("ENS_MAA", layout)
-    with pytest.raises(MeshError, match=r"^mesh\.med: takes data from another .*file; put all arrays into one"):
+    with pytest.raises(
+        MeshError, match=r"^mesh\.med: takes data from another .*file; put all arrays into one"
+    ):
         parse(tmp_path / "mesh.med")
 
 
@@ -240,7 +293,10 @@ def test_an_endless_loop_of_the_reader_is_cut_off(write):
     """A negative block size makes meshio walk on the spot."""
     data = np.array([-4], dtype="<i4").tobytes() + b"\xff" * 40
     text = vtu(
-        "", options='header_type="Int32"', format="appended", appended='<AppendedData encoding="raw">_@</AppendedData>'
+        "",
+        options='header_type="Int32"',
+        format="appended",
+        appended='<AppendedData encoding="raw">_@</AppendedData>',
     )
     path = write(text.encode().replace(b"@", data + b"\n"), "loop.vtu")
     start = time.perf_counter()
@@ -263,7 +319,9 @@ CHILD = {
 def test_foreign_code_that_fails_is_a_mesh_error(case):
     function, arguments, words = CHILD[case]
     with pytest.raises(MeshError, match=words):
-        run_apart(function, *arguments, memory=2**31, seconds=1 if case == "hangs" else 30, what="job")
+        run_apart(
+            function, *arguments, memory=2**31, seconds=1 if case == "hangs" else 30, what="job"
+        )
 
 
 def test_files_larger_than_the_limit_are_not_read(write):
@@ -327,7 +385,12 @@ def test_random_corruptions_of_files_give_a_mesh_or_a_mesh_error(write, tmp_path
     (folder / "a.msh").write_text(gmsh())
     (folder / "b.msh").write_text(GMSH41)
     (folder / "c.vtu").write_text(vtu())
-    for name, options in (("d.msh", {"file_format": "gmsh22"}), ("e.vtu", {}), ("f.vtk", {}), ("g.mesh", {})):
+    for name, options in (
+        ("d.msh", {"file_format": "gmsh22"}),
+        ("e.vtu", {}),
+        ("f.vtk", {}),
+        ("g.mesh", {}),
+    ):
         meshio.write(folder / name, source, **options)
     done = subprocess.run(
         [sys.executable, "-c", FUZZ, str(folder), "50"],

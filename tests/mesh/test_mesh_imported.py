@@ -35,7 +35,9 @@ def test_the_gasket_is_read_labelled_and_refined():
     mesh = read_mesh(GASKET, CLAMPED)
     sides = mesh.boundary_facets("dirichlet").size
     # Two holes of radius 0.2, each a regular polygon.
-    assert mesh.area.sum() == pytest.approx(2 - sides / 2 * 0.2**2 * np.sin(2 * np.pi / (sides / 2)), rel=1e-9)
+    assert mesh.area.sum() == pytest.approx(
+        2 - sides / 2 * 0.2**2 * np.sin(2 * np.pi / (sides / 2)), rel=1e-9
+    )
     fine = mesh.refined().refined()
     for label, part in (("contact", "foundation"), ("neumann", "free"), ("dirichlet", "clamped")):
         assert mesh.boundary_facets(label).size == gasket.parts[part].shape[1]
@@ -91,7 +93,9 @@ def test_a_facet_in_two_groups_with_different_labels_is_listed(write):
 
 
 def test_groups_need_no_names(write):
-    mesh = read_mesh(write(gmsh(names=False)), {1: "contact", "2": "neumann", 3: "dirichlet", 4: "neumann"})
+    mesh = read_mesh(
+        write(gmsh(names=False)), {1: "contact", "2": "neumann", 3: "dirichlet", 4: "neumann"}
+    )
     assert mesh.boundary_facets("neumann").size == 6
 
 
@@ -120,13 +124,19 @@ def test_unknown_groups_get_the_known_ones_and_a_hint(write):
 
 def test_a_group_inside_the_domain_is_refused_only_if_it_is_used(write):
     inside = [(5, 6, 5)]
-    lines = [(a, b, NUMBERS[side]) for side, ends in SQUARE.parts.items() for a, b in ends.T] + inside
+    lines = [
+        (a, b, NUMBERS[side]) for side, ends in SQUARE.parts.items() for a, b in ends.T
+    ] + inside
     path = write(gmsh(lines=lines))
     sides = {"bottom": "contact", "top": "dirichlet", "left": "neumann", "right": "neumann"}
     assert read_mesh(path, sides).boundary_facets("contact").size == 3
-    assert "part '5': the line (1, 1) to (2, 1) lies inside the domain" in refusal(path, sides | {"5": "neumann"})
+    assert "part '5': the line (1, 1) to (2, 1) lies inside the domain" in refusal(
+        path, sides | {"5": "neumann"}
+    )
     path = write(gmsh(lines=[*lines[:-1], (0, 2, 5)]))
-    assert "the line (0, 0) to (2, 0) is no side of a triangle" in refusal(path, sides | {"5": "neumann"})
+    assert "the line (0, 0) to (2, 0) is no side of a triangle" in refusal(
+        path, sides | {"5": "neumann"}
+    )
 
 
 def replaced(k, *point):
@@ -145,14 +155,23 @@ DAMAGED = {
     "duplicate element": (gmsh(t=[*SQUARE.t.T, SQUARE.t.T[4]]), "a duplicate element"),
     "facet in three elements": (gmsh(t=[*SQUARE.t.T, (5, 6, 15)]), "belongs to 3 triangles"),
     "overlap": (gmsh(replaced(5, 2.5, 1)), "overlap"),
-    "hanging node": (gmsh([*SQUARE.p.T, (0.5, 0.5)], [(0, 1, 16), (0, 16, 4), *SQUARE.t.T[1:]]), "a hanging node"),
+    "hanging node": (
+        gmsh([*SQUARE.p.T, (0.5, 0.5)], [(0, 1, 16), (0, 16, 4), *SQUARE.t.T[1:]]),
+        "a hanging node",
+    ),
     "empty mesh": (gmsh(t=[]), "holds no triangle"),
     "empty file": ("", "meshio cannot read it"),
     "no nodes": ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "points have shape (0,)"),
     "quadrilaterals": (gmsh().replace(" 2 2 9 1 ", " 3 2 9 1 1 "), "holds 18 quad; only triangles"),
     "truncated": (gmsh()[:-200], "meshio cannot read it"),
-    "not a plane": (gmsh().replace("\n6 1.0 1.0 0\n", "\n6 1.0 1.0 0.5\n"), "vertex 5 has z = 0.5, not 0"),
-    "missing group": (gmsh().replace(" 2 2 9 1 ", " 2 0 ", 3), "put all cells into physical groups, or none"),
+    "not a plane": (
+        gmsh().replace("\n6 1.0 1.0 0\n", "\n6 1.0 1.0 0.5\n"),
+        "vertex 5 has z = 0.5, not 0",
+    ),
+    "missing group": (
+        gmsh().replace(" 2 2 9 1 ", " 2 0 ", 3),
+        "put all cells into physical groups, or none",
+    ),
 }
 
 
@@ -171,9 +190,13 @@ def test_clockwise_elements_are_accepted(write):
 
 def test_an_unreferenced_node_is_dropped_with_a_warning(write):
     text = gmsh(
-        np.insert(SQUARE.p, 0, 9.0, axis=1).T, SQUARE.t.T + 1, [(a + 1, b + 1, 1) for a, b in SQUARE.parts["top"].T]
+        np.insert(SQUARE.p, 0, 9.0, axis=1).T,
+        SQUARE.t.T + 1,
+        [(a + 1, b + 1, 1) for a, b in SQUARE.parts["top"].T],
     )
-    with pytest.warns(UserWarning, match=r"mesh.msh: 1 vertices belong to no triangle and are dropped \(0\)"):
+    with pytest.warns(
+        UserWarning, match=r"mesh.msh: 1 vertices belong to no triangle and are dropped \(0\)"
+    ):
         found = import_mesh(write(text))
     assert np.array_equal(found.t, SQUARE.t)
     assert np.array_equal(found.parts["1"], SQUARE.parts["top"])
@@ -199,7 +222,9 @@ def tree(tmp_path):
     return tree
 
 
-@pytest.mark.parametrize("path", ["../meshes/a mesh.msh", "../in.msh", "../meshes/größe.msh", "./../scenes/../in.msh"])
+@pytest.mark.parametrize(
+    "path", ["../meshes/a mesh.msh", "../in.msh", "../meshes/größe.msh", "./../scenes/../in.msh"]
+)
 def test_paths_in_the_tree_are_resolved(tree, path):
     resolved = resolve_mesh_path(path, tree, tree / "scenes")
     assert resolved.parent == (tree / "meshes").resolve()

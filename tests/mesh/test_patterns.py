@@ -1,4 +1,6 @@
-"""Patterns on rectangles: counts, exact areas and sides, nesting of names; shaken and graded meshes stay meshes."""
+"""Patterns on rectangles: counts, exact areas and sides, nesting of names; shaken and graded meshes
+stay meshes.
+"""
 
 import numpy as np
 import pytest
@@ -78,22 +80,45 @@ def test_sides_are_exact_at_any_scale_and_offset(pattern, scale, offset):
         assert mesh.parts[side].shape == (2, n)
         assert (mesh.p[axis, mesh.parts[side]] == value).all()
     facets = labelled(mesh, RULES)
-    assert [facets.boundary_facets(label).size for label in ("contact", "dirichlet", "neumann")] == [n, n, 2 * n]
+    assert [
+        facets.boundary_facets(label).size for label in ("contact", "dirichlet", "neumann")
+    ] == [n, n, 2 * n]
 
 
 BAD = {
     "no cells": (lambda: criss_cross(0, 1, (0, 0), (1, 1)), "0 by 1 cells"),
     "no size": (lambda: criss_cross(1, 1, (0, 0), (1, 0)), "the size positive"),
     "size not a number": (lambda: alternating(1, 1, (0, 0), (1, np.nan)), "must be finite"),
-    "phase": (lambda: alternating(1, 1, (0, 0), (1, 1), "up"), "unknown diagonal 'up'; known: falling, rising"),
+    "phase": (
+        lambda: alternating(1, 1, (0, 0), (1, 1), "up"),
+        "unknown diagonal 'up'; known: falling, rising",
+    ),
     "offset 1e14": (lambda: criss_cross(8, 8, (1e14, 0), (1, 1)), "coordinate resolution"),
     "offset 1e14 upwards": (lambda: alternating(8, 8, (0, 1e14), (1, 1)), "coordinate resolution"),
-    "amount 1": (lambda: perturbed(criss_cross(2, 2, (0, 0), (1, 1)), 1, 0), "amount 1 is not in [0, 1)"),
-    "amount not a number": (lambda: perturbed(criss_cross(2, 2, (0, 0), (1, 1)), np.nan, 0), "is not in [0, 1)"),
-    "opposite sides": (lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), ("top", "bottom"), 2), "no side or corner"),
-    "unknown side": (lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), "south", 2), "'south' is no side or corner"),
-    "exponent": (lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), "top", 0.5), "exponent 0.5 is below 1"),
-    "exponent too large": (lambda: graded(criss_cross(9, 9, (1, 0), (1, 1)), "left", 99), "without area"),
+    "amount 1": (
+        lambda: perturbed(criss_cross(2, 2, (0, 0), (1, 1)), 1, 0),
+        "amount 1 is not in [0, 1)",
+    ),
+    "amount not a number": (
+        lambda: perturbed(criss_cross(2, 2, (0, 0), (1, 1)), np.nan, 0),
+        "is not in [0, 1)",
+    ),
+    "opposite sides": (
+        lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), ("top", "bottom"), 2),
+        "no side or corner",
+    ),
+    "unknown side": (
+        lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), "south", 2),
+        "'south' is no side or corner",
+    ),
+    "exponent": (
+        lambda: graded(criss_cross(2, 2, (0, 0), (1, 1)), "top", 0.5),
+        "exponent 0.5 is below 1",
+    ),
+    "exponent too large": (
+        lambda: graded(criss_cross(9, 9, (1, 0), (1, 1)), "left", 99),
+        "without area",
+    ),
     "no rectangle": (lambda: graded(triangle(), "left", 2), "not a rectangle"),
 }
 
@@ -132,7 +157,9 @@ def test_perturbed_meshes_are_meshes_of_the_same_rectangle(pattern, amount):
 def test_perturbed_keeps_slanted_boundaries_and_the_ends_of_parts():
     mesh = alternating(4, 4, (0, 0), (4, 4))
     slanted = type(mesh)(
-        np.array([[1, 0.3], [0, 1]]) @ mesh.p, mesh.t, mesh.parts | {"half": mesh.parts["bottom"][:, :2]}
+        np.array([[1, 0.3], [0, 1]]) @ mesh.p,
+        mesh.t,
+        mesh.parts | {"half": mesh.parts["bottom"][:, :2]},
     )
     shaken = perturbed(slanted, 0.5, 1)
     assert np.array_equal(shaken.p[:, mesh.parts["left"]], slanted.p[:, mesh.parts["left"]])
@@ -162,7 +189,9 @@ def test_graded_meshes_have_the_same_outline(pattern, towards):
     pattern=st.sampled_from(sorted(PATTERNS)),
     nx=st.integers(1, 6),
     ny=st.integers(1, 6),
-    towards=st.sampled_from(["bottom", "right", "top", "left", ("right", "top"), ("left", "bottom")]),
+    towards=st.sampled_from(
+        ["bottom", "right", "top", "left", ("right", "top"), ("left", "bottom")]
+    ),
     exponent=st.floats(1, 4),
     amount=st.floats(0, 1, exclude_max=True),
     seed=st.integers(0, 2**32),
@@ -174,7 +203,9 @@ def test_grading_then_shaking_gives_a_mesh_or_a_mesh_error(
     pattern, nx, ny, towards, exponent, amount, seed, origin, size
 ):
     try:
-        mesh = perturbed(graded(PATTERNS[pattern](nx, ny, origin, size), towards, exponent), amount, seed)
+        mesh = perturbed(
+            graded(PATTERNS[pattern](nx, ny, origin, size), towards, exponent), amount, seed
+        )
         check_triangulation(mesh.p, mesh.t)
     except MeshError:
         # Only where cells shrink below what is far from the origin can be told apart.

@@ -1,4 +1,6 @@
-"""Polygons: what is refused, against an exact oracle; area, corners, names and quality of what is meshed."""
+"""Polygons: what is refused, against an exact oracle; area, corners, names and quality of what is
+meshed.
+"""
 
 import itertools
 from unittest import mock
@@ -28,7 +30,13 @@ MESHES = {
     "L-shape": (L_SHAPE, (), 0.2, 3, 30),
     "hole": (SQUARE, [HOLE], 0.1, 1 - 0.08, 25),
     "hole clockwise": (SQUARE, [HOLE[::-1]], 0.1, 1 - 0.08, 25),
-    "two holes": (L_SHAPE, [HOLE, [(-0.8, -0.6), (-0.2, -0.6), (-0.4, 0.4)]], 0.15, 3 - 0.08 - 0.3, 20),
+    "two holes": (
+        L_SHAPE,
+        [HOLE, [(-0.8, -0.6), (-0.2, -0.6), (-0.4, 0.4)]],
+        0.15,
+        3 - 0.08 - 0.3,
+        20,
+    ),
     "disc": (DISC, (), 0.3, 30 * np.sin(np.pi / 30), 20),
     "corner within a side": ([(0, 0), (0.3, 0), (1, 0), (1, 1), (0, 1)], (), 0.2, 1, 30),
 }
@@ -54,13 +62,19 @@ def test_a_polygon_is_filled_and_named(case):
     assert fine.area.sum() == pytest.approx(area, rel=1e-12)
     for k, (start, end) in enumerate(zip(corners, np.roll(corners, -1, axis=0), strict=True)):
         on = p[:, mesh.parts[f"side-{k}"]]
-        assert np.hypot(*(on[:, 0] - on[:, 1])).sum() == pytest.approx(np.hypot(*np.subtract(end, start)), rel=1e-12)
-    assert set(mesh.parts) >= {f"hole-{k}-side-{j}" for k, loop in enumerate(holes) for j in range(len(loop))}
+        assert np.hypot(*(on[:, 0] - on[:, 1])).sum() == pytest.approx(
+            np.hypot(*np.subtract(end, start)), rel=1e-12
+        )
+    assert set(mesh.parts) >= {
+        f"hole-{k}-side-{j}" for k, loop in enumerate(holes) for j in range(len(loop))
+    }
 
 
 def test_sides_may_be_named_together():
     mesh = triangulate(SQUARE, size=0.5, names=["base", "wall", "top", "wall"])
-    assert mesh.parts["wall"].shape[1] == mesh.parts["side-1"].shape[1] + mesh.parts["side-3"].shape[1]
+    assert (
+        mesh.parts["wall"].shape[1] == mesh.parts["side-1"].shape[1] + mesh.parts["side-3"].shape[1]
+    )
     assert (mesh.p[1, mesh.parts["base"]] == 0).all()
     with pytest.raises(MeshError, match="3 names for 4 sides"):
         triangulate(SQUARE, size=0.5, names=["a", "b", "c"])
@@ -73,11 +87,14 @@ def test_the_same_polygon_gives_the_same_mesh():
 
 
 @pytest.mark.parametrize(
-    ("scale", "offset"), [(1e-9, 0.0), (1e9, 0.0), (1.0, 1e4), (1.0, -1e6), (1e-9, 1e-3), (2.0**-40, 0.0)]
+    ("scale", "offset"),
+    [(1e-9, 0.0), (1e9, 0.0), (1.0, 1e4), (1.0, -1e6), (1e-9, 1e-3), (2.0**-40, 0.0)],
 )
 def test_place_and_unit_of_length_do_not_matter(scale, offset):
     """Case 8: the same triangles, the coordinates up to round-off, the sides straight."""
-    here, there = (triangulate(s * np.array(L_SHAPE) + o, size=0.25 * s) for s, o in ((1, 0), (scale, offset)))
+    here, there = (
+        triangulate(s * np.array(L_SHAPE) + o, size=0.25 * s) for s, o in ((1, 0), (scale, offset))
+    )
     assert np.array_equal(here.t, there.t)
     rounding = max(1, abs(offset) / scale) * 1e-14
     assert np.abs((there.p - offset) / scale - here.p).max() < max(rounding, 1e-7)
@@ -104,13 +121,22 @@ BAD = {
     ),
     "figure of eight": ([[(0, 0), (1, 1), (1, 0), (0, 1)]], "sides 0 and 2 cross"),
     "spike": ([[(0, 0), (1, 0), (1, 1), (1, -1)]], "corner 1 at (1, 0) lies on side 2"),
-    "corner on a side": ([[(0, 0), (2, 0), (2, 1), (1, 0), (0, 1)]], "corner 3 at (1, 0) lies on side 0"),
+    "corner on a side": (
+        [[(0, 0), (2, 0), (2, 1), (1, 0), (0, 1)]],
+        "corner 3 at (1, 0) lies on side 0",
+    ),
     "line": ([[(0, 0), (1, 0), (2, 0)]], "it must have an area"),
     "slanted line": ([[(0, 0), (1, 1), (3, 3)]], "corner 1 at (1, 1) lies on side 2"),
     "hole outside": ([SQUARE, [[(2, 2), (3, 2), (3, 3)]]], "of hole 0 is outside the polygon"),
-    "hole around": ([SQUARE, [[(-1, -1), (3, -1), (1, 9)]]], "is outside the polygon or inside a hole"),
+    "hole around": (
+        [SQUARE, [[(-1, -1), (3, -1), (1, 9)]]],
+        "is outside the polygon or inside a hole",
+    ),
     "hole in a hole": ([SQUARE, [HOLE, [(0.35, 0.3), (0.45, 0.3), (0.4, 0.4)]]], "inside a hole"),
-    "holes that cross": ([SQUARE, [HOLE, [(0.3, 0.1), (0.9, 0.5), (0.1, 0.5)]]], "cross; the outline must be simple"),
+    "holes that cross": (
+        [SQUARE, [HOLE, [(0.3, 0.1), (0.9, 0.5), (0.1, 0.5)]]],
+        "cross; the outline must be simple",
+    ),
     "hole that touches": (
         [SQUARE, [[(0, 0.5), (0.5, 0.2), (0.5, 0.8)]]],
         "corner 0 of hole 0 at (0, 0.5) lies on side 3",
@@ -148,7 +174,9 @@ def test_refused(case):
 
 def test_the_mesher_is_asked_for_by_name(monkeypatch):
     monkeypatch.setattr(polygon, "find_spec", lambda name: None)
-    with pytest.raises(MeshError, match=r"needs the package netgen-mesher; install signorini\[mesh\]"):
+    with pytest.raises(
+        MeshError, match=r"needs the package netgen-mesher; install signorini\[mesh\]"
+    ):
         triangulate(SQUARE, size=0.5)
 
 
@@ -164,7 +192,9 @@ def is_simple(corners):
     def meet(a, b, c, d):
         if on(c, a, b) or on(d, a, b) or on(a, c, d) or on(b, c, d):
             return True
-        return (turn(a, b, c) > 0) != (turn(a, b, d) > 0) and (turn(c, d, a) > 0) != (turn(c, d, b) > 0)
+        return (turn(a, b, c) > 0) != (turn(a, b, d) > 0) and (turn(c, d, a) > 0) != (
+            turn(c, d, b) > 0
+        )
 
     n = len(corners)
     if len(set(corners)) < n:
@@ -193,7 +223,9 @@ def test_random_outlines_are_judged_as_the_definition_does(corners):
 
 
 @given(
-    corners=st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=3, max_size=8, unique=True),
+    corners=st.lists(
+        st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=3, max_size=8, unique=True
+    ),
     size=st.floats(0.5, 20),
 )
 @settings(max_examples=60, deadline=None)
@@ -203,7 +235,9 @@ def test_random_simple_polygons_are_meshed(corners, size):
     corners = [corners[k] for k in np.argsort(angles, kind="stable")]
     assume(is_simple(corners))
     # In this process: faster.
-    with mock.patch.object(polygon, "run_apart", lambda _, *arguments, **limits: polygon.netgen(*arguments)):
+    with mock.patch.object(
+        polygon, "run_apart", lambda _, *arguments, **limits: polygon.netgen(*arguments)
+    ):
         mesh = triangulate(corners, size=size)
     a, b, c = (mesh.p[:, v] for v in mesh.t)
     area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -57,7 +57,11 @@ WRONG_LABELS = {
         "1 facets",
         "has 0, expected 1",
     ),
-    "two kinds unlabelled": (lambda names, inside: {"contact": names["contact"]}, "9 facets", "has 0, expected 1"),
+    "two kinds unlabelled": (
+        lambda names, inside: {"contact": names["contact"]},
+        "9 facets",
+        "has 0, expected 1",
+    ),
     "doubly labelled": (
         lambda names, inside: names | {"contact": np.append(names["contact"], names["neumann"][0])},
         "1 facets",
@@ -90,7 +94,9 @@ def test_refinement_keeps_every_label_in_its_place(mesh):
         start, end = mesh.p[:, mesh.facets[:, mesh.boundary_facets(label)]].transpose(1, 0, 2)
         expected = np.hstack([0.75 * start + 0.25 * end, 0.25 * start + 0.75 * end])
         found = midpoints(fine, label)
-        np.testing.assert_allclose(found[:, np.lexsort(found)], expected[:, np.lexsort(expected)], rtol=0, atol=1e-15)
+        np.testing.assert_allclose(
+            found[:, np.lexsort(found)], expected[:, np.lexsort(expected)], rtol=0, atol=1e-15
+        )
 
 
 def test_coarser_is_the_mesh_it_was_refined_from(mesh):
@@ -107,17 +113,24 @@ def test_children_halve_their_parent(mesh, times):
     for axis in range(2):
         corners, family = parent.p[axis][parent.t], mesh.vertex_children(mesh.p[axis][mesh.t])
         for k, i in np.ndindex(3, 3):
-            np.testing.assert_allclose(family[k, i], 0.5 * (corners[i] + corners[k]), rtol=0, atol=1e-14)
+            np.testing.assert_allclose(
+                family[k, i], 0.5 * (corners[i] + corners[k]), rtol=0, atol=1e-14
+            )
         for i in range(3):
             np.testing.assert_allclose(
-                family[3, i], 0.5 * (corners[(i + 1) % 3] + corners[(i + 2) % 3]), rtol=0, atol=1e-14
+                family[3, i],
+                0.5 * (corners[(i + 1) % 3] + corners[(i + 2) % 3]),
+                rtol=0,
+                atol=1e-14,
             )
         np.testing.assert_allclose(prolong(mesh, corners), mesh.p[axis][mesh.t], rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3])
 def test_children_keep_the_rows_of_values_on_triangles(mesh, rows):
-    """Whatever their number: the children of a triangle lie in it, so the mean of their centroids is its own."""
+    """Whatever their number: the children of a triangle lie in it, so the mean of their centroids
+    is its own.
+    """
     fine = mesh.refined()
     centroids = np.resize(fine.p[:, fine.t].mean(axis=1), (rows, fine.number_of_triangles))
     expected = np.resize(mesh.p[:, mesh.t].mean(axis=1), (rows, mesh.number_of_triangles))
@@ -133,18 +146,32 @@ def test_from_vertex_children_undoes_vertex_children(mesh):
 def test_the_gradient_of_an_affine_function_is_constant(mesh):
     x, y = mesh.p
     gradients = mesh.gradients(mesh.corner_values(2 * x - 5 * y + 1))
-    np.testing.assert_allclose(gradients, np.broadcast_to([[2.0], [-5.0]], gradients.shape), rtol=1e-11)
+    np.testing.assert_allclose(
+        gradients, np.broadcast_to([[2.0], [-5.0]], gradients.shape), rtol=1e-11
+    )
 
 
 def test_a_grid_and_its_scikit_fem_mesh_are_one_triangulation():
     for diagonal in ("falling", "rising"):
         plain = grid(5, 3, diagonal=diagonal, labels=PAPER)
         other = Triangulation.from_skfem(plain.skfem)
-        for name in ("p", "t", "t2f", "facets", "number_of_vertices", "number_of_facets", "number_of_triangles"):
+        for name in (
+            "p",
+            "t",
+            "t2f",
+            "facets",
+            "number_of_vertices",
+            "number_of_facets",
+            "number_of_triangles",
+        ):
             np.testing.assert_array_equal(getattr(plain, name), getattr(other, name))
         for label in LABELS:
-            np.testing.assert_array_equal(plain.boundary_facets(label), other.boundary_facets(label))
-            np.testing.assert_array_equal(plain.boundary_vertices(label), other.boundary_vertices(label))
+            np.testing.assert_array_equal(
+                plain.boundary_facets(label), other.boundary_facets(label)
+            )
+            np.testing.assert_array_equal(
+                plain.boundary_vertices(label), other.boundary_vertices(label)
+            )
         values = np.random.default_rng(0).random((3, plain.number_of_triangles))
         np.testing.assert_allclose(plain.gradients(values), other.gradients(values), rtol=1e-12)
         np.testing.assert_allclose(other.area, plain.area, rtol=1e-14)

@@ -14,16 +14,24 @@ PUBLISHED = list(csv.DictReader((ROOT / "config/published/table_5_1.csv").read_t
 
 
 def computed(shift="0"):
-    """Tables of errors and rates equal to the published numbers, the first one shifted by units of its last digit."""
+    """Tables of errors and rates equal to the published numbers, the first one shifted by units of
+    its last digit.
+    """
     errors, rates = {}, []
     for k, row in enumerate(PUBLISHED):
-        value = str(Decimal(row["value"]) + (Decimal(shift) * Decimal(row["unit"]) if k == 0 else 0))
+        value = str(
+            Decimal(row["value"]) + (Decimal(shift) * Decimal(row["unit"]) if k == 0 else 0)
+        )
         if row["quantity"] == "slope":
-            rates.append({"element": row["element"], "norm": row["norm"], "kind": "mean", "slope": value})
+            rates.append(
+                {"element": row["element"], "norm": row["norm"], "kind": "mean", "slope": value}
+            )
             rates.append(rates[-1] | {"kind": "fit", "slope": "0"})
         else:
             key = row["element"], row["n"]
-            errors.setdefault(key, {"element": row["element"], "n": row["n"], "l2": "", "h1": ""})[row["norm"]] = value
+            errors.setdefault(key, {"element": row["element"], "n": row["n"], "l2": "", "h1": ""})[
+                row["norm"]
+            ] = value
     return list(errors.values()), rates
 
 
@@ -38,7 +46,11 @@ def test_the_published_numbers_are_those_of_the_table():
     for row in printed:
         for norm in ("l2", "h1"):
             for element, tag in (("P1", "cf"), ("CR", "ncf")):
-                (found,) = (r for r in PUBLISHED if (r["norm"], r["element"], r["n"]) == (norm, element, row["n"]))
+                (found,) = (
+                    r
+                    for r in PUBLISHED
+                    if (r["norm"], r["element"], r["n"]) == (norm, element, row["n"])
+                )
                 assert found["value"] == row[f"{norm}_{tag}"]
 
 
@@ -104,7 +116,9 @@ def test_a_table_read_from_a_file_gets_the_same_verdict():
     ids=["an error", "a slope"],
 )
 def test_a_number_that_was_not_computed_is_named(drop):
-    with pytest.raises(SignoriniError, match="was not computed; restore levels, elements and norms"):
+    with pytest.raises(
+        SignoriniError, match="was not computed; restore levels, elements and norms"
+    ):
         compare(PUBLISHED, *drop(*computed()))
 
 

@@ -35,9 +35,13 @@ def test_values_are_those_at_the_corners(mesh, element):
     field = field_of(mesh, found)
     np.testing.assert_array_equal(field["p"], mesh.p)
     np.testing.assert_array_equal(field["t"], mesh.t)
-    np.testing.assert_array_equal(field["values"], find_element(element).vertex_values(mesh, found.u))
+    np.testing.assert_array_equal(
+        field["values"], find_element(element).vertex_values(mesh, found.u)
+    )
     np.testing.assert_array_equal(field["range"], [found.u.min(), found.u.max()])
-    np.testing.assert_array_equal(field["critical_points"], contact_line(mesh, found)["critical_points"])
+    np.testing.assert_array_equal(
+        field["critical_points"], contact_line(mesh, found)["critical_points"]
+    )
 
 
 @pytest.mark.parametrize("label", ["dirichlet", "contact", "neumann"])

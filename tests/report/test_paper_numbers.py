@@ -1,4 +1,6 @@
-"""Table 5.1 of the paper: all 24 numbers and 4 slopes, and that each choice it leaves unsaid matters."""
+"""Table 5.1 of the paper: all 24 numbers and 4 slopes, and that each choice it leaves unsaid
+matters.
+"""
 
 import csv
 from dataclasses import replace
@@ -119,7 +121,9 @@ def test_the_slopes(element, norm, mean, fit):
 
 
 @pytest.mark.parametrize(("element", "n", "exact"), [("CR", 2, 0.0740)])
-def test_exact_load_integration_reverses_the_papers_ranking_at_the_coarsest_level(element, n, exact):
+def test_exact_load_integration_reverses_the_papers_ranking_at_the_coarsest_level(
+    element, n, exact
+):
     """With the load integrated exactly CR is the better element in L2 at N = 2 too (another code)."""
     found = table(UNSAID["load"]["statement"])
     assert found[element, n]["l2"] == pytest.approx(exact, abs=6e-5)
@@ -130,7 +134,9 @@ def test_exact_load_integration_reverses_the_papers_ranking_at_the_coarsest_leve
 def test_the_load_rule_matters_even_on_the_finest_mesh():
     """By up to 48 % at N = 2 and still 13 % at N = 64."""
     exact = table(UNSAID["load"]["statement"])
-    change = {n: max(abs(exact[e, n]["l2"] / table()[e, n]["l2"] - 1) for e in ELEMENTS) for n in (2, 64)}
+    change = {
+        n: max(abs(exact[e, n]["l2"] / table()[e, n]["l2"] - 1) for e in ELEMENTS) for n in (2, 64)
+    }
     assert change[2] == pytest.approx(0.48, abs=0.01)
     assert change[64] == pytest.approx(0.13, abs=0.01)
 
@@ -142,7 +148,9 @@ def test_the_reference_at_the_origin(n, value):
 
 
 def test_the_shape_of_the_reference():
-    """Maximum, minimum and last positive node of another code: the critical point is near x = 0.698."""
+    """Maximum, minimum and last positive node of another code: the critical point is near x =
+    0.698.
+    """
     problem, found = solution(PAPER, "P1", 512)
     x, y = problem.mesh.p
     assert found.u.max() == pytest.approx(0.60840297, abs=6e-9)

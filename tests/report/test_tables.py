@@ -12,8 +12,15 @@ from signorini.report.macros import OPTIONAL, REQUIRED, check_summary, macros, p
 from signorini.report.tables import TEX, error_table, markdown_table
 
 ROOT = Path(__file__).parents[2]
-PRINTED = list(csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines()))  # the paper's
-COLUMNS = {"l2_cf": ("l2", "P1"), "l2_ncf": ("l2", "CR"), "h1_cf": ("h1", "P1"), "h1_ncf": ("h1", "CR")}
+PRINTED = list(
+    csv.DictReader((ROOT / "tests/data/table_5_1.csv").read_text().splitlines())
+)  # the paper's
+COLUMNS = {
+    "l2_cf": ("l2", "P1"),
+    "l2_ncf": ("l2", "CR"),
+    "h1_cf": ("h1", "P1"),
+    "h1_ncf": ("h1", "CR"),
+}
 
 
 @pytest.fixture
@@ -30,7 +37,9 @@ def rates():
     rows = []
     for column, (norm, element) in COLUMNS.items():
         steps = [log2(float(a[column]) / float(b[column])) for a, b in pairwise(PRINTED)]
-        rows.append({"element": element, "norm": norm, "kind": "mean", "slope": sum(steps) / len(steps)})
+        rows.append(
+            {"element": element, "norm": norm, "kind": "mean", "slope": sum(steps) / len(steps)}
+        )
     return rows
 
 
@@ -52,7 +61,11 @@ def one_cell(value, **options):
 
 def cells(table, separator):
     lines = [line.strip("| \\") for line in table.splitlines()]
-    return [[cell.strip() for cell in line.split(separator)] for line in lines if re.match(r"\d|slope", line)]
+    return [
+        [cell.strip() for cell in line.split(separator)]
+        for line in lines
+        if re.match(r"\d|slope", line)
+    ]
 
 
 @pytest.mark.parametrize(("table", "separator"), [(error_table, "&"), (markdown_table, "|")])
@@ -95,7 +108,9 @@ def test_notation_follows_the_size(value, printed):
 
 
 def test_latex_writes_powers_of_ten():
-    table = error_table([{"element": "CR", "n": 4, "h1": 1.25e-7}], [], norms=["h1"], elements=["CR"])
+    table = error_table(
+        [{"element": "CR", "n": 4, "h1": 1.25e-7}], [], norms=["h1"], elements=["CR"]
+    )
     assert r"4 & $1.2500\times10^{-7}$ \\" in table
     assert r"slope & -- \\" in table
 
@@ -107,12 +122,21 @@ def test_choice_and_order_of_columns(errors, rates):
 
 
 def test_absent_level_is_a_dash(errors, rates):
-    assert cells(markdown_table(errors[1:], rates), "|")[0] == ["2", "--", "0.14182150", "--", "0.72540780"]
+    assert cells(markdown_table(errors[1:], rates), "|")[0] == [
+        "2",
+        "--",
+        "0.14182150",
+        "--",
+        "0.72540780",
+    ]
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
-    [({"norms": ["l3"]}, "l3.*known: l2, h1, h1_semi"), ({"elements": ["P2"]}, "P2.*known: P1, CR")],
+    [
+        ({"norms": ["l3"]}, "l3.*known: l2, h1, h1_semi"),
+        ({"elements": ["P2"]}, "P2.*known: P1, CR"),
+    ],
 )
 def test_unknown_names_are_refused(errors, rates, options, message):
     with pytest.raises(ValueError, match=message):
@@ -125,7 +149,10 @@ def test_a_level_given_twice_is_refused(errors, rates):
 
 
 def test_macros_escape_what_tex_reserves():
-    assert macros({"Machine": "x86_64, 100 %"}) == "\\newcommand{\\SignoriniMachine}{x86\\_64, 100 \\%}\n"
+    assert (
+        macros({"Machine": "x86_64, 100 %"})
+        == "\\newcommand{\\SignoriniMachine}{x86\\_64, 100 \\%}\n"
+    )
 
 
 @pytest.mark.parametrize("name", ["L2", "", "a_b", "a b", "ä"])
@@ -182,7 +209,9 @@ def test_groups_are_whole(errors, rates, surface):
 
 
 def read_document():
-    """Return the head comment of main.tex, its body, and its guarded blocks as {macro asked for: text}."""
+    """Return the head comment of main.tex, its body, and its guarded blocks as {macro asked for:
+    text}.
+    """
     source = (ROOT / "paper/main.tex").read_text(encoding="utf-8")
     head, body = source.split(r"\documentclass")
     body = re.sub(r"(?<!\\)%.*", "", body)
@@ -225,7 +254,9 @@ def test_no_decimal_is_typed_into_the_document():
 
 def test_tables_import_no_array_library():
     code = "import sys, signorini.report.tables; print({'numpy', 'pandas', 'matplotlib'} & sys.modules.keys())"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "src", capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT / "src", capture_output=True, text=True, check=True
+    )
     assert run.stdout == "set()\n"
 
 
@@ -240,7 +271,11 @@ def test_a_slope_of_round_off_is_marked_and_explained(make):
     slope, note = (line for line in table.splitlines() if "slope" in line)
     assert "-0.50*" in slope
     assert "1.50*" not in slope
-    assert note.strip("\\ ").rstrip("}").endswith("* an error in this column is round-off, the slope means nothing")
+    assert (
+        note.strip("\\ ")
+        .rstrip("}")
+        .endswith("* an error in this column is round-off, the slope means nothing")
+    )
     clean = make(errors, [row | {"floor": "0"} for row in rates], norms=["l2"])
     assert "*" not in clean
     assert len(clean.splitlines()) < len(table.splitlines())
@@ -248,11 +283,15 @@ def test_a_slope_of_round_off_is_marked_and_explained(make):
 
 def test_a_missing_slope_of_round_off_is_a_marked_dash():
     rates = [{"element": "P1", "norm": "l2", "kind": "mean", "slope": "", "floor": "1"}]
-    table = markdown_table([{"element": "P1", "n": 2, "l2": 0}], rates, norms=["l2"], elements=["P1"])
+    table = markdown_table(
+        [{"element": "P1", "n": 2, "l2": 0}], rates, norms=["l2"], elements=["P1"]
+    )
     assert "| slope | --* |" in table
 
 
-@pytest.mark.parametrize(("make", "marks"), [(error_table, ("$^\\dagger$",)), (markdown_table, ("†",))])
+@pytest.mark.parametrize(
+    ("make", "marks"), [(error_table, ("$^\\dagger$",)), (markdown_table, ("†",))]
+)
 def test_rows_of_an_inaccurate_solve_are_marked_and_the_note_tells_the_worst(make, marks):
     proof = {"residual": "1e-16", "accuracy": "3.4e-07", "multiplier_accuracy": ""}
     errors = [
@@ -264,7 +303,10 @@ def test_rows_of_an_inaccurate_solve_are_marked_and_the_note_tells_the_worst(mak
     marked = [line for line in table.splitlines() if marks[0] in line]
     assert len(marked) == 2
     assert marked[0].lstrip("| ").startswith("4 ")
-    assert f"solved inaccurately, not to ten digits of u and of the contact force (at worst {3.4e-7:.0e}" in marked[1]
+    assert (
+        f"solved inaccurately, not to ten digits of u and of the contact force (at worst {3.4e-7:.0e}"
+        in marked[1]
+    )
     both = make(errors, [], norms=["l2"], elements=["P1", "CR"])
     assert "--" + marks[0] not in both  # a dash has nothing to mark
     assert "(at worst 5e-01" in both
@@ -292,12 +334,20 @@ def test_a_slope_that_is_not_there_says_why_and_does_not_blame_round_off(floor, 
     assert f"| slope | --{mark} |" in table
     assert said in table
     assert "round-off" not in table
-    assert (f"--{TEX[mark]}" in error_table(errors, rates, norms=["l2"], elements=["P1"])) == (mark in TEX)
+    assert (f"--{TEX[mark]}" in error_table(errors, rates, norms=["l2"], elements=["P1"])) == (
+        mark in TEX
+    )
 
 
 def test_a_note_stands_under_the_table():
     errors = [{"element": "P1", "n": 2, "l2": 0.1, "critical_points": 0.2}]
-    assert markdown_table(errors, [], norms=["l2"], elements=["P1"], note="25 % off").endswith("\nNote: 25 % off.\n")
-    assert r"{Note: 25 \% off.} \\" in error_table(errors, [], norms=["l2"], elements=["P1"], note="25 % off")
-    assert "distances jump" in markdown_table(errors, [], norms=["critical_points"], elements=["P1"])
+    assert markdown_table(errors, [], norms=["l2"], elements=["P1"], note="25 % off").endswith(
+        "\nNote: 25 % off.\n"
+    )
+    assert r"{Note: 25 \% off.} \\" in error_table(
+        errors, [], norms=["l2"], elements=["P1"], note="25 % off"
+    )
+    assert "distances jump" in markdown_table(
+        errors, [], norms=["critical_points"], elements=["P1"]
+    )
     assert "Note" not in markdown_table(errors, [], norms=["l2"], elements=["P1"], note="")

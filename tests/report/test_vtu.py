@@ -43,8 +43,12 @@ def test_function_comes_back(tmp_path, mesh, element):
     t = read.cells_dict["triangle"].T
     np.testing.assert_array_equal(read.points[t, :2], mesh.p[:, mesh.t].transpose(1, 2, 0))
     np.testing.assert_array_equal(read.points[:, 2], 0)
-    np.testing.assert_array_equal(read.point_data["u"][t], find_element(element).vertex_values(mesh, found.u))
-    assert len(read.points) == (mesh.number_of_vertices if element == "P1" else 3 * mesh.number_of_triangles)
+    np.testing.assert_array_equal(
+        read.point_data["u"][t], find_element(element).vertex_values(mesh, found.u)
+    )
+    assert len(read.points) == (
+        mesh.number_of_vertices if element == "P1" else 3 * mesh.number_of_triangles
+    )
 
 
 def test_boundary_comes_back(tmp_path, mesh, element):
@@ -54,7 +58,9 @@ def test_boundary_comes_back(tmp_path, mesh, element):
     for number, label in enumerate(LABELS, start=1):
         ends = read.points[lines[labels == number], :2]
         expected = mesh.p[:, mesh.facets[:, mesh.boundary_facets(label)]].transpose(2, 1, 0)
-        assert sorted(sorted(e) for e in ends.tolist()) == sorted(sorted(e) for e in expected.tolist())
+        assert sorted(sorted(e) for e in ends.tolist()) == sorted(
+            sorted(e) for e in expected.tolist()
+        )
 
 
 def test_lines_carry_the_values_of_the_triangle_behind(tmp_path, mesh, element):
@@ -62,13 +68,17 @@ def test_lines_carry_the_values_of_the_triangle_behind(tmp_path, mesh, element):
     gradients = read.cell_data_dict["gradient"]
     for (a, b), gradient in zip(read.cells_dict["line"], gradients["line"], strict=True):
         step = read.points[b] - read.points[a]
-        assert read.point_data["u"][b] - read.point_data["u"][a] == pytest.approx(gradient @ step, abs=1e-13)
+        assert read.point_data["u"][b] - read.point_data["u"][a] == pytest.approx(
+            gradient @ step, abs=1e-13
+        )
 
 
 def test_gradient_of_a_linear_function(tmp_path, mesh, element):
     _, read = written(tmp_path / "u.vtu", mesh, element, u=lambda x, y: 2 * x - 3 * y)
     for gradient in read.cell_data_dict["gradient"].values():
-        np.testing.assert_allclose(gradient, np.broadcast_to([2, -3, 0], gradient.shape), atol=1e-12)
+        np.testing.assert_allclose(
+            gradient, np.broadcast_to([2, -3, 0], gradient.shape), atol=1e-12
+        )
 
 
 def test_same_solution_same_bytes(tmp_path, mesh, element):

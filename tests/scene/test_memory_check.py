@@ -17,7 +17,13 @@ from signorini.scene.statement import ProblemStatement
 
 ROOT = Path(__file__).parents[2]
 SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
-SQUARE = {"kind": "rectangle", "origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"}
+SQUARE = {
+    "kind": "rectangle",
+    "origin": [0, 0],
+    "size": [1, 1],
+    "diagonal": "falling",
+    "cells": "per-side",
+}
 TRIANGLE = {"kind": "polygon", "corners": [[0, 0], [1, 0], [0, 1]], "holes": []}
 DOMAINS = {
     "square": (SQUARE, SIDES),
@@ -33,13 +39,21 @@ DOMAINS = {
 def asked(domain="square", **parts):
     domain, boundary = DOMAINS[domain]
     data = {"f": 1, "g": 0, "dirichlet": 0, "obstacle": 0} | parts
-    mapping = {"domain": domain, "boundary": boundary, "data": data, "load_quadrature": "exact", "coarsest": 4}
+    mapping = {
+        "domain": domain,
+        "boundary": boundary,
+        "data": data,
+        "load_quadrature": "exact",
+        "coarsest": 4,
+    }
     return ProblemStatement.from_mapping(mapping)
 
 
 @pytest.fixture
 def small_machine(monkeypatch):
-    """One with 1 MB: it holds the factors of 900 triangles for P1, 7,700 for multigrid, 33,000 of a grid."""
+    """One with 1 MB: it holds the factors of 900 triangles for P1, 7,700 for multigrid, 33,000 of a
+    grid.
+    """
     monkeypatch.setattr(memory, "_memory", lambda: 1e6)
 
 
@@ -81,7 +95,10 @@ def test_a_domain_that_has_not_been_made_is_judged_nearly_alike(monkeypatch, dom
     """Exactly where it is a rectangle; a polygon's triangles are a few more than its area tells."""
     made = make_domain(*DOMAINS[domain], 4)
     known, guessed = (
-        limit(monkeypatch, lambda given=given: check_level(asked(domain), "CR", 64, "multigrid", given))
+        limit(
+            monkeypatch,
+            lambda given=given: check_level(asked(domain), "CR", 64, "multigrid", given),
+        )
         for given in (made, None)
     )
     if isinstance(made, Rectangle):
@@ -95,12 +112,19 @@ def test_a_hole_is_no_part_of_the_area(monkeypatch):
     square = [[0, 0], [2, 0], [2, 2], [0, 2]]
     plain, pierced, reversed_ = (
         replace(asked("polygon"), domain={"kind": "polygon", "corners": corners, "holes": holes})
-        for corners, holes in ((square, []), (square, [[[1, 1], [1, 1.5], [1.5, 1]]]), (square[::-1], []))
+        for corners, holes in (
+            (square, []),
+            (square, [[[1, 1], [1, 1.5], [1.5, 1]]]),
+            (square[::-1], []),
+        )
     )
     limits = [
-        limit(monkeypatch, lambda one=one: check_level(one, "P1", 64, "direct")) for one in (plain, pierced, reversed_)
+        limit(monkeypatch, lambda one=one: check_level(one, "P1", 64, "direct"))
+        for one in (plain, pierced, reversed_)
     ]
-    assert limits == pytest.approx([2 * 64**2 * area * memory.DIRECT["P1"] for area in (4, 3.875, 4)])
+    assert limits == pytest.approx(
+        [2 * 64**2 * area * memory.DIRECT["P1"] for area in (4, 3.875, 4)]
+    )
 
 
 def test_levels_that_fit_are_judged_without_numpy():
@@ -113,19 +137,46 @@ from signorini.scene.scene import load_scene
 check_level(load_scene({scene!r}).problem, "CR", 512, "auto")
 assert not {{"numpy", "signorini.mesh.domain", "signorini.fem.problem"}} & set(sys.modules)
 """
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, env=os.environ | {"PYTHONPATH": "src"})
+    subprocess.run(
+        [sys.executable, "-c", code], check=True, cwd=ROOT, env=os.environ | {"PYTHONPATH": "src"}
+    )
 
 
 REFUSED = {
     # case: (statement, level, method, what the message says would do)
-    "direct on a grid": (asked, 32, "direct", "; set solver.method to fourier or multigrid, or choose"),
+    "direct on a grid": (
+        asked,
+        32,
+        "direct",
+        "; set solver.method to fourier or multigrid, or choose",
+    ),
     "direct on a large grid": (asked, 100, "direct", "; set solver.method to fourier, or choose"),
     "multigrid on a grid": (asked, 100, "multigrid", "; set solver.method to fourier, or choose"),
     "fourier": (asked, 150, "fourier", r" here; choose smaller levels"),
-    "a varying coefficient": (lambda: asked(coefficient="1 + x"), 32, "direct", "; set solver.method to multigrid, or"),
-    "criss-cross": (lambda: asked("criss-cross"), 32, "direct", "; set solver.method to multigrid, or choose"),
-    "graded": (lambda: asked("graded"), 32, "direct", "; set solver.method to multigrid, or choose"),
-    "polygon": (lambda: asked("polygon"), 64, "direct", "; set solver.method to multigrid, or choose"),
+    "a varying coefficient": (
+        lambda: asked(coefficient="1 + x"),
+        32,
+        "direct",
+        "; set solver.method to multigrid, or",
+    ),
+    "criss-cross": (
+        lambda: asked("criss-cross"),
+        32,
+        "direct",
+        "; set solver.method to multigrid, or choose",
+    ),
+    "graded": (
+        lambda: asked("graded"),
+        32,
+        "direct",
+        "; set solver.method to multigrid, or choose",
+    ),
+    "polygon": (
+        lambda: asked("polygon"),
+        64,
+        "direct",
+        "; set solver.method to multigrid, or choose",
+    ),
     "beyond all": (lambda: asked("graded"), 4096, "direct", " here; choose smaller levels"),
     "auto beyond all": (lambda: asked("graded"), 64, "auto", " here; choose smaller levels"),
     "auto, no grid": (lambda: asked("polygon"), 512, "auto", " here; choose smaller levels"),
@@ -136,7 +187,9 @@ REFUSED = {
 @pytest.mark.parametrize("case", REFUSED)
 def test_case_10_what_does_not_fit_is_refused_by_name(case):
     statement_of, n, method, remedy = REFUSED[case]
-    with pytest.raises(MeshError, match=rf"^levels: n = {n}.* triangles and needs at least .* GB .*{remedy}"):
+    with pytest.raises(
+        MeshError, match=rf"^levels: n = {n}.* triangles and needs at least .* GB .*{remedy}"
+    ):
         check_level(statement_of(), "P1", n, method)
 
 
@@ -157,7 +210,10 @@ def test_auto_takes_what_fits():
 @pytest.mark.usefixtures("small_machine", "no_mesh")
 def test_fourier_is_named_only_where_it_applies():
     """Not with contact on two sides, nor with different sides beside it."""
-    for labels in (("contact", "neumann", "contact", "dirichlet"), ("contact", "neumann", "dirichlet", "dirichlet")):
+    for labels in (
+        ("contact", "neumann", "contact", "dirichlet"),
+        ("contact", "neumann", "dirichlet", "dirichlet"),
+    ):
         with pytest.raises(MeshError, match=r"; set solver\.method to multigrid, or"):
             check_level(statement(labels, f=1), "P1", 32, "direct")
 

@@ -1,4 +1,6 @@
-"""Scene files: strict YAML, the schema, what only the whole document shows, and one-line errors for the rest."""
+"""Scene files: strict YAML, the schema, what only the whole document shows, and one-line errors for
+the rest.
+"""
 
 import copy
 import json
@@ -68,7 +70,9 @@ def test_a_scene_is_what_its_file_says(load):
 
 def test_what_a_file_leaves_out_has_the_schemas_default(load):
     schema = scene_schema()["properties"]
-    scene = load("\n".join(line for line in VALID.splitlines() if not line.startswith(("title", "elements"))))
+    scene = load(
+        "\n".join(line for line in VALID.splitlines() if not line.startswith(("title", "elements")))
+    )
     for key in ("title", "elements", "load_quadrature", "norms", "norm_quadrature", "slope"):
         assert scene.document[key] == schema[key]["default"]
     assert scene.document["data"]["g"] == 0  # with an exact truth it is derived instead
@@ -91,7 +95,9 @@ def test_the_finest_level_may_be_the_references(load):
     assert load(changed("n: 32", "n: 8")).levels[-1] == 8
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "config/scenes").glob("*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "config/scenes").glob("*.yaml")), ids=lambda path: path.stem
+)
 def test_the_scenes_of_the_repository_are_valid(path):
     assert load_scene(path).name == path.stem
 
@@ -118,30 +124,66 @@ BAD_INPUT = {
     "lower case element": (changed("[P1, CR]", "[cr]"), "known: P1, CR"),
     "element twice": (changed("[P1, CR]", "[P1, P1]"), "list each entry once"),
     "no elements": (changed("[P1, CR]", "[]"), "elements: [] is not valid; needs at least 1"),
-    "n not nested": (changed("n: 32", "n: 24"), "levels: 2 does not nest in the reference, truth.n = 24"),
-    "n not a multiple": (changed("[2, 4, 8]", "[2, 3, 8]"), "levels: 3 does not nest in the reference, truth.n = 32"),
-    "n larger than the reference": (changed("n: 32", "n: 4"), "levels: 8 is finer than the reference, truth.n = 4"),
+    "n not nested": (
+        changed("n: 32", "n: 24"),
+        "levels: 2 does not nest in the reference, truth.n = 24",
+    ),
+    "n not a multiple": (
+        changed("[2, 4, 8]", "[2, 3, 8]"),
+        "levels: 3 does not nest in the reference, truth.n = 32",
+    ),
+    "n larger than the reference": (
+        changed("n: 32", "n: 4"),
+        "levels: 8 is finer than the reference, truth.n = 4",
+    ),
     "no reference level": (changed(", n: 32"), "truth.n: missing"),
     "empty level list": (changed("[2, 4, 8]", "[]"), "levels: [] is not valid; needs at least 1"),
     "levels decrease": (changed("[2, 4, 8]", "[4, 2]"), "levels: [4, 2] is not increasing"),
     "level twice": (changed("[2, 4, 8]", "[2, 2, 4]"), "levels: [2, 2, 4] is not increasing"),
     "level zero": (changed("[2, 4, 8]", "[0, 2]"), "levels.0: 0 is not valid; must be at least 1"),
     "level negative": (changed("[2, 4, 8]", "[-2, 4]"), "levels.0: -2 is not valid"),
-    "level a fraction": (changed("[2, 4, 8]", "[2.5]"), "levels.0: 2.5 is not valid; expected a whole number"),
-    "level a float": (changed("[2, 4, 8]", "[2.0, 4]"), "levels.0: 2.0 is not valid; expected a whole number"),
+    "level a fraction": (
+        changed("[2, 4, 8]", "[2.5]"),
+        "levels.0: 2.5 is not valid; expected a whole number",
+    ),
+    "level a float": (
+        changed("[2, 4, 8]", "[2.0, 4]"),
+        "levels.0: 2.0 is not valid; expected a whole number",
+    ),
     "level in powers of ten": (
         changed("[2, 4, 8]", "[2, 1e1]"),
         "levels.1: 10.0 is not valid; expected a whole number",
     ),
-    "level a truth value": (changed("[2, 4, 8]", "[true]"), "levels.0: true is not valid; expected a whole number"),
-    "level huge": (changed("[2, 4, 8]", "[100000]"), "levels.0: 100000 is not valid; must be at most 16384"),
+    "level a truth value": (
+        changed("[2, 4, 8]", "[true]"),
+        "levels.0: true is not valid; expected a whole number",
+    ),
+    "level huge": (
+        changed("[2, 4, 8]", "[100000]"),
+        "levels.0: 100000 is not valid; must be at most 16384",
+    ),
     "level beyond all bounds": (changed("[2, 4, 8]", f"[{'9' * 5000}]"), "out of range"),
     "levels no list": (changed("[2, 4, 8]", "8"), "levels: 8 is not valid; expected a list"),
-    "leading zero": (changed("[2, 4, 8]", "[010]"), 'levels.0: "010" is not valid; expected a whole number'),
-    "sexagesimal": (changed("[2, 4, 8]", "[1:30]"), 'levels.0: "1:30" is not valid; expected a whole number'),
-    "hexadecimal": (changed("[2, 4, 8]", "[0x10]"), 'levels.0: "0x10" is not valid; expected a whole number'),
-    "underscores": (changed("[2, 4, 8]", "[1_000]"), 'levels.0: "1_000" is not valid; expected a whole number'),
-    "no for a word": (changed("elements: [P1, CR]", "elements: no"), 'elements: "no" is not valid; expected a list'),
+    "leading zero": (
+        changed("[2, 4, 8]", "[010]"),
+        'levels.0: "010" is not valid; expected a whole number',
+    ),
+    "sexagesimal": (
+        changed("[2, 4, 8]", "[1:30]"),
+        'levels.0: "1:30" is not valid; expected a whole number',
+    ),
+    "hexadecimal": (
+        changed("[2, 4, 8]", "[0x10]"),
+        'levels.0: "0x10" is not valid; expected a whole number',
+    ),
+    "underscores": (
+        changed("[2, 4, 8]", "[1_000]"),
+        'levels.0: "1_000" is not valid; expected a whole number',
+    ),
+    "no for a word": (
+        changed("elements: [P1, CR]", "elements: no"),
+        'elements: "no" is not valid; expected a list',
+    ),
     "no for a label": (
         changed("top: dirichlet", "top: no"),
         'boundary.top: "no" is not valid; known: dirichlet, contact, neumann',
@@ -155,25 +197,55 @@ BAD_INPUT = {
     ),
     "formula empty": (changed("obstacle: 0", 'obstacle: ""'), "data.obstacle"),
     "formula missing": (changed("f: 2*pi*sin(2*pi*x), "), "data.f: missing"),
-    "formula wrong": (changed("f: 2*pi*sin(2*pi*x)", "f: 2*pi*sinn(x)"), "data.f: unknown name 'sinn'"),
+    "formula wrong": (
+        changed("f: 2*pi*sin(2*pi*x)", "f: 2*pi*sinn(x)"),
+        "data.f: unknown name 'sinn'",
+    ),
     "formula nan": (changed("obstacle: 0", "obstacle: .nan"), "data.obstacle"),
     "formula 1e400": (changed("obstacle: 0", "obstacle: 1e400"), "out of range"),
     "formula code": (changed("obstacle: 0", "obstacle: __import__('os')"), "data.obstacle"),
     "size infinite": (changed("size: [1, 1]", "size: [1e400, 1]"), "out of range"),
-    "size .inf": (changed("size: [1, 1]", "size: [.inf, 1]"), 'domain.size.0: ".inf" is not valid; expected a number'),
-    "size nan": (changed("size: [1, 1]", "size: [1, .nan]"), 'domain.size.1: ".nan" is not valid; expected a number'),
-    "size zero": (changed("size: [1, 1]", "size: [1, 0]"), "domain.size: 0 is not valid; it must be greater than 0"),
+    "size .inf": (
+        changed("size: [1, 1]", "size: [.inf, 1]"),
+        'domain.size.0: ".inf" is not valid; expected a number',
+    ),
+    "size nan": (
+        changed("size: [1, 1]", "size: [1, .nan]"),
+        'domain.size.1: ".nan" is not valid; expected a number',
+    ),
+    "size zero": (
+        changed("size: [1, 1]", "size: [1, 0]"),
+        "domain.size: 0 is not valid; it must be greater than 0",
+    ),
     "size negative": (changed("size: [1, 1]", "size: [-1, 1]"), "domain.size: -1 is not valid"),
-    "size of one": (changed("size: [1, 1]", "size: [1]"), "domain.size: [1] is not valid; needs at least 2"),
+    "size of one": (
+        changed("size: [1, 1]", "size: [1]"),
+        "domain.size: [1] is not valid; needs at least 2",
+    ),
     "size of three": (
         changed("size: [1, 1]", "size: [1, 1, 1]"),
         "domain.size: [1, 1, 1] is not valid; takes at most 2",
     ),
-    "origin beyond all bounds": (changed("origin: [0, 0]", f"origin: [1{'0' * 400}, 0]"), "out of range"),
-    "unknown key": (VALID + "elemnts: [P1]\n", "elemnts: unknown key; did you mean elements? known: title, domain"),
-    "key of a section": (VALID + "obstacle: 0\n", "obstacle: unknown key here; it belongs into the section data"),
-    "key of two sections": (VALID + "kind: x\n", "kind: unknown key here; it belongs into the section domain or truth"),
-    "unknown key below": (changed("diagonal: f", "diagnal: f"), "domain.diagnal: unknown key; did you mean diagonal?"),
+    "origin beyond all bounds": (
+        changed("origin: [0, 0]", f"origin: [1{'0' * 400}, 0]"),
+        "out of range",
+    ),
+    "unknown key": (
+        VALID + "elemnts: [P1]\n",
+        "elemnts: unknown key; did you mean elements? known: title, domain",
+    ),
+    "key of a section": (
+        VALID + "obstacle: 0\n",
+        "obstacle: unknown key here; it belongs into the section data",
+    ),
+    "key of two sections": (
+        VALID + "kind: x\n",
+        "kind: unknown key here; it belongs into the section domain or truth",
+    ),
+    "unknown key below": (
+        changed("diagonal: f", "diagnal: f"),
+        "domain.diagnal: unknown key; did you mean diagonal?",
+    ),
     "key of no kin": (VALID + "qqqq: 1\n", "qqqq: unknown key; known: title"),
     "missing side": (changed("top: dirichlet, "), "boundary.top: missing; add it"),
     "unknown side": (changed("top: dirichlet", "upper: dirichlet"), "boundary.upper: unknown key"),
@@ -210,7 +282,10 @@ BAD_INPUT = {
     "tabulator": ("a:\n\t- b\n", "line 2, column 1: found character '\\t'"),
     "duplicate key": (VALID + "levels: [2]\n", "line 8, column 1: duplicate key 'levels'"),
     "duplicate key below": (changed("{f:", "{f: 0, f:"), "duplicate key 'f'"),
-    "key a number": ("1: 2\n" + VALID, "key 1 is not a word; put it in quotes if it is a name, a list in brackets"),
+    "key a number": (
+        "1: 2\n" + VALID,
+        "key 1 is not a word; put it in quotes if it is a name, a list in brackets",
+    ),
     "key a list": ("? [a]\n: 2\n", "is not a word"),
     "alias": (
         VALID.replace("[P1, CR]", "&all [P1, CR]") + "norms: *all\n",
@@ -238,7 +313,9 @@ def test_bad_input_is_refused_in_one_line(load, case):
 
 
 def test_a_bomb_is_refused_at_once(load):
-    text = "a: &a [x, x]\n" + "".join(f"{c}: &{c} [{', '.join(9 * [f'*{p}'])}]\n" for p, c in pairwise(ascii_lowercase))
+    text = "a: &a [x, x]\n" + "".join(
+        f"{c}: &{c} [{', '.join(9 * [f'*{p}'])}]\n" for p, c in pairwise(ascii_lowercase)
+    )
     start = time.process_time()
     with pytest.raises(SceneError, match="aliases"):
         load(text)
@@ -277,7 +354,9 @@ def test_a_bomb_is_refused_at_once(load):
 @pytest.mark.parametrize("key", ["title", "domain", "levels", "truth", "data"])
 def test_whatever_stands_after_a_key_is_read_or_refused(load, key, text):
     """No other kind of error may escape."""
-    lines = [f"{key}: {text}" if line.startswith(f"{key}:") else line for line in VALID.splitlines()]
+    lines = [
+        f"{key}: {text}" if line.startswith(f"{key}:") else line for line in VALID.splitlines()
+    ]
     try:
         load("\n".join(lines))
     except (SceneError, FormulaError):
@@ -325,7 +404,23 @@ def test_a_name_is_a_word(name):
 
 @pytest.mark.parametrize(
     "name",
-    ["", "../x", "/etc/x", "a;touch P", "a b", "-a", "_a", ".a", "a.b", "x" * 65, "x" * 300, "ä", "a\n", "a/b", "$(a)"],
+    [
+        "",
+        "../x",
+        "/etc/x",
+        "a;touch P",
+        "a b",
+        "-a",
+        "_a",
+        ".a",
+        "a.b",
+        "x" * 65,
+        "x" * 300,
+        "ä",
+        "a\n",
+        "a/b",
+        "$(a)",
+    ],
 )
 def test_any_other_name_is_refused(name):
     with pytest.raises(SceneError, match=r"scene name .* is not valid") as error:
@@ -386,14 +481,27 @@ def test_reading_imports_no_numpy(tmp_path):
     path.write_text(EXACT, encoding="utf-8")
     code = f"import sys; from signorini.scene.scene import read_scene; read_scene({str(path)!r})"
     code += "; sys.exit('numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False, env={"PYTHONPATH": "src"}).returncode == 0
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], check=False, env={"PYTHONPATH": "src"}
+        ).returncode
+        == 0
+    )
 
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("size: [1, 1]", "size: [1.3, 1]", "domain.size: level n = 2 cuts the x side into 2.6 cells; choose n so that"),
-        ("size: [1, 1]", "size: [1, 0.25]", "domain.size: level n = 2 cuts the y side into 0.5 cells"),
+        (
+            "size: [1, 1]",
+            "size: [1.3, 1]",
+            "domain.size: level n = 2 cuts the x side into 2.6 cells; choose n so that",
+        ),
+        (
+            "size: [1, 1]",
+            "size: [1, 0.25]",
+            "domain.size: level n = 2 cuts the y side into 0.5 cells",
+        ),
         ("size: [1, 1]", "size: [1, 1.5], cells: per-side", None),
     ],
 )
@@ -443,7 +551,8 @@ BASES = {
         "{kind: polygon, corners: [[0, 0], [1, 0], [1, 1]]}",
     ).replace("{kind: reference, element: P1, n: 32}", "{kind: exact}"),
     "mesh": VALID.replace(
-        "{kind: rectangle, origin: [0, 0], size: [1, 1], diagonal: falling}", "{kind: mesh, file: x.msh}"
+        "{kind: rectangle, origin: [0, 0], size: [1, 1], diagonal: falling}",
+        "{kind: mesh, file: x.msh}",
     ),
 }
 LONG = {
@@ -487,16 +596,23 @@ def complaint(load, text):
 
 @pytest.mark.parametrize(
     ("old", "field"),
-    [("obstacle: 0", "data.obstacle"), ("f: 2*pi*sin(2*pi*x)", "data.f"), ("bottom: contact", "boundary.bottom")],
+    [
+        ("obstacle: 0", "data.obstacle"),
+        ("f: 2*pi*sin(2*pi*x)", "data.f"),
+        ("bottom: contact", "boundary.bottom"),
+    ],
 )
 def test_a_formula_that_is_too_long_is_told_its_length(load, old, field):
     text = "x" + " + x" * 250
-    with pytest.raises(SceneError, match=rf"{field}: .*; it has 1001 characters, more than 1000; shorten it"):
+    with pytest.raises(
+        SceneError, match=rf"{field}: .*; it has 1001 characters, more than 1000; shorten it"
+    ):
         load(changed(old, f"{old.split(':')[0]}: {text}"))
 
 
 @pytest.mark.parametrize(
-    "text", ["title: {}", "a: {0}\n{0}: 1", "{0}: 1\n{0}: 2", "a: !{} b", "a: &{0} b\nc: *{0}", "a: 1{}"]
+    "text",
+    ["title: {}", "a: {0}\n{0}: 1", "{0}: 1\n{0}: 2", "a: !{} b", "a: &{0} b\nc: *{0}", "a: 1{}"],
 )
 def test_an_error_of_yaml_is_short(load, text):
     """The longest word that a file may hold."""
@@ -519,8 +635,14 @@ LABELLED = "top: dirichlet, bottom: contact, left: neumann, right: neumann"
             "contact: contact, wall: dirichlt",
             'boundary.wall: "dirichlt" is no label, but other values are; did you mean',
         ),
-        ("contact: contact, dirichlet: y - 1", 'boundary.dirichlet: "y - 1" is no label, but other values are'),
-        ("contact: y - 1, wall: dirichlet", "boundary.wall: no label; either every key is one of dirichlet, contact"),
+        (
+            "contact: contact, dirichlet: y - 1",
+            'boundary.dirichlet: "y - 1" is no label, but other values are',
+        ),
+        (
+            "contact: y - 1, wall: dirichlet",
+            "boundary.wall: no label; either every key is one of dirichlet, contact",
+        ),
     ],
 )
 def test_labels_as_names_of_parts_are_not_mixed_with_formulas(load, boundary, message):
@@ -531,7 +653,9 @@ def test_labels_as_names_of_parts_are_not_mixed_with_formulas(load, boundary, me
 def test_the_sides_of_a_polygon_may_be_named_as_labels_are(load):
     polygon = BASES["polygon"].replace("{kind: exact}", "{kind: reference, n: 32}")
     polygon = polygon.replace("[1, 1]]}", "[1, 1]], sides: [contact, dirichlet, neumann]}")
-    scene = load(polygon.replace(LABELLED, "contact: dirichlet, dirichlet: contact, neumann: neumann"))
+    scene = load(
+        polygon.replace(LABELLED, "contact: dirichlet, dirichlet: contact, neumann: neumann")
+    )
     mesh = scene.problem.triangulations.level(2)
     assert (mesh.p[0, mesh.boundary_vertices("contact")] == 1).all()
     assert (mesh.p[1, mesh.boundary_vertices("dirichlet")] == 0).all()
@@ -545,10 +669,15 @@ levels: [2, 4]
 norms: [l2, critical_points]
 """
     unnamed = exact + "truth: {kind: exact, u: r**1.5*cos(1.5*theta)}\n"
-    with pytest.raises(SceneError, match=r"norms: critical_points needs .* list them in truth\.critical_points, \[\["):
+    with pytest.raises(
+        SceneError,
+        match=r"norms: critical_points needs .* list them in truth\.critical_points, \[\[",
+    ):
         load(unnamed)
     load(unnamed.replace("theta)}", "theta), critical_points: [[0, 0]]}"))
-    with pytest.raises(SceneError, match="the family patch has none; drop critical_points from norms"):
+    with pytest.raises(
+        SceneError, match="the family patch has none; drop critical_points from norms"
+    ):
         load(exact + "truth: {kind: exact, family: patch}\n")
 
 

@@ -63,12 +63,18 @@ def test_an_exact_scene_finds_what_it_expects(tmp_path, name):
         for n in asked.levels:
             problem = signorini.discretize(asked, element, n)
             solution = signorini.solve(problem)
-            table.append(row(stored(tmp_path / "s.npz", problem, solution, n, domain.mesh_size(n)), errors))
+            table.append(
+                row(stored(tmp_path / "s.npz", problem, solution, n, domain.mesh_size(n)), errors)
+            )
     rates = [found for found in rate_rows(table) if found["kind"] == asked.document["slope"]]
-    assert check_expectations(asked.document["expect"], table, rates, name).startswith("as expected")
+    assert check_expectations(asked.document["expect"], table, rates, name).startswith(
+        "as expected"
+    )
 
 
-README = re.findall(r"```yaml\n(.*?)```", (FOLDER.parent / "README.md").read_text(encoding="utf-8"), re.S)
+README = re.findall(
+    r"```yaml\n(.*?)```", (FOLDER.parent / "README.md").read_text(encoding="utf-8"), re.S
+)
 
 
 @pytest.mark.parametrize("text", [text for text in README if "levels" in text])
@@ -77,7 +83,10 @@ def test_the_examples_of_the_readme_work_as_they_stand(tmp_path, text):
     path.write_text(text, encoding="utf-8")
     asked = signorini.load_scene(path)
     for element in asked.elements:
-        assert signorini.solve(signorini.discretize(asked, element, asked.levels[0])).status == "solved"
+        assert (
+            signorini.solve(signorini.discretize(asked, element, asked.levels[0])).status
+            == "solved"
+        )
 
 
 def test_what_a_scene_does_not_expect_is_refused():
@@ -85,5 +94,9 @@ def test_what_a_scene_does_not_expect_is_refused():
     with pytest.raises(signorini.SignoriniError, match=r"P1 l2 slope 1\.500, expected 2"):
         check_expectations({"slopes": {"l2": 2}, "tolerance": 0.1}, [], rates, "errors.csv")
     errors = [{"element": "CR", "n": "4", "l2": "1e-3"}]
-    with pytest.raises(signorini.SignoriniError, match=r"CR n = 4 l2 error 1\.00e-03, expected below 1e-12"):
-        check_expectations({"slopes": {}, "tolerance": 0.1, "errors_below": 1e-12}, errors, [], "errors.csv")
+    with pytest.raises(
+        signorini.SignoriniError, match=r"CR n = 4 l2 error 1\.00e-03, expected below 1e-12"
+    ):
+        check_expectations(
+            {"slopes": {}, "tolerance": 0.1, "errors_below": 1e-12}, errors, [], "errors.csv"
+        )

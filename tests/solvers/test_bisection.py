@@ -1,4 +1,6 @@
-"""Newest-vertex bisection of the tests: what it hands to the solvers is a sound, labelled, local refinement."""
+"""Newest-vertex bisection of the tests: what it hands to the solvers is a sound, labelled, local
+refinement.
+"""
 
 import numpy as np
 import pytest
@@ -25,7 +27,9 @@ def test_a_bisected_mesh_is_conforming_and_labelled(start, distance):
     check_triangulation(fine.p, fine.t)
     assert fine.area.sum() == pytest.approx(mesh.area.sum(), rel=1e-12)
     for label in mesh.ends:
-        lengths = [np.hypot(*np.diff(each.points(each.ends[label]), axis=1)).sum() for each in (mesh, fine)]
+        lengths = [
+            np.hypot(*np.diff(each.points(each.ends[label]), axis=1)).sum() for each in (mesh, fine)
+        ]
         assert lengths[1] == pytest.approx(lengths[0], rel=1e-12)
 
 
@@ -44,4 +48,6 @@ def test_cells_shrink_as_the_power_of_the_distance_that_is_asked_for():
 
 def test_nothing_marked_nothing_done():
     mesh = l_shape()
-    assert bisected(mesh, lambda p, t: np.zeros(t.shape[1], dtype=bool), 100).number_of_triangles == 24
+    assert (
+        bisected(mesh, lambda p, t: np.zeros(t.shape[1], dtype=bool), 100).number_of_triangles == 24
+    )

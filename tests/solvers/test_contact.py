@@ -129,7 +129,14 @@ def test_every_degenerate_problem_is_solved(family, condition):
 
 @pytest.mark.parametrize(
     ("family", "condition"),
-    [("spread", 1e4), ("spread", 1e12), ("gapped", 1e2), ("needle", 1e12), ("obtuse", 1e12), ("green", 1e12)],
+    [
+        ("spread", 1e4),
+        ("spread", 1e12),
+        ("gapped", 1e2),
+        ("needle", 1e12),
+        ("obtuse", 1e12),
+        ("green", 1e12),
+    ],
 )
 def test_large_degenerate_problems(family, condition):
     rng = np.random.default_rng([300, *family.encode()])
@@ -144,10 +151,14 @@ def test_large_degenerate_problems(family, condition):
 def test_bounded_least_squares_agrees():
     rng = np.random.default_rng(0)
     for count in range(100):
-        S = FAMILIES[("spread", "gapped", "green", "obtuse")[count % 4]](rng.integers(2, 25), 1e3, rng)
+        S = FAMILIES[("spread", "gapped", "green", "obtuse")[count % 4]](
+            rng.integers(2, 25), 1e3, rng
+        )
         q = degenerate(S, rng, share=0.2)
         L = np.linalg.cholesky(S)
-        oracle = lsq_linear(L.T, np.linalg.solve(L, q), (0, np.inf), method="bvls", tol=1e-15, max_iter=1000)
+        oracle = lsq_linear(
+            L.T, np.linalg.solve(L, q), (0, np.inf), method="bvls", tol=1e-15, max_iter=1000
+        )
         w = solve_contact(DenseContact(S), q).w
         unconstrained = np.max(np.abs(np.linalg.solve(S, q)))
         assert np.max(np.abs(w - oracle.x)) <= 1e-14 * np.linalg.cond(S) * unconstrained
@@ -179,7 +190,9 @@ def test_least_index_rule_alone_is_finite(monkeypatch):
         for _ in range(40):
             S = FAMILIES[family](12, 1e4, rng)
             q = degenerate(S, rng, share=0.3)
-            result = solve_contact(DenseContact(S), q, guess=rng.random(12) < 0.5, max_iterations=4096)
+            result = solve_contact(
+                DenseContact(S), q, guess=rng.random(12) < 0.5, max_iterations=4096
+            )
             assert_solved(S, q, result)
             singles += result.single_steps
     assert singles > 0

@@ -39,9 +39,13 @@ def shape(request):
 
 
 def random_problem(labels, element, shape, diagonal, size=(1.0, 0.7), seed=0):
-    """White noise for a load, Dirichlet values and an obstacle that binds at about half of the dofs."""
+    """White noise for a load, Dirichlet values and an obstacle that binds at about half of the
+    dofs.
+    """
     rng = np.random.default_rng(seed)
-    problem = discretize_on(grid(*shape, labels=labels, diagonal=diagonal, size=size), element, statement())
+    problem = discretize_on(
+        grid(*shape, labels=labels, diagonal=diagonal, size=size), element, statement()
+    )
     b = rng.standard_normal(problem.b.size)
     if not problem.fixed.size:
         b -= b.mean() + 0.1
@@ -57,7 +61,9 @@ def assert_routes_agree(problem):
     fourier, direct = (solve(problem, method) for method in ("fourier", "direct"))
     scale = np.abs(direct.u).max()
     np.testing.assert_allclose(fourier.u, direct.u, rtol=0, atol=1e-11 * scale)
-    np.testing.assert_allclose(fourier.multiplier, direct.multiplier, rtol=0, atol=1e-10 * np.abs(problem.b).max())
+    np.testing.assert_allclose(
+        fourier.multiplier, direct.multiplier, rtol=0, atol=1e-10 * np.abs(problem.b).max()
+    )
     np.testing.assert_array_equal(fourier.active, direct.active)
     # The matrix that scikit-fem assembles is the judge of both.
     assert kkt_residual(problem, fourier.u)[0] < 1e-13
@@ -69,12 +75,16 @@ def assert_routes_agree(problem):
 @pytest.mark.parametrize("far", KINDS)
 @pytest.mark.parametrize("side", SIDES)
 def test_both_routes_agree_on_every_contact_side(side, far, beside, element, shape, diagonal):
-    assert_routes_agree(random_problem(labels_around(side, "contact", far, beside), element, shape, diagonal))
+    assert_routes_agree(
+        random_problem(labels_around(side, "contact", far, beside), element, shape, diagonal)
+    )
 
 
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])
 @pytest.mark.parametrize(
-    "kinds", [kinds for kinds in itertools.product(KINDS, repeat=4) if "dirichlet" in kinds], ids="-".join
+    "kinds",
+    [kinds for kinds in itertools.product(KINDS, repeat=4) if "dirichlet" in kinds],
+    ids="-".join,
 )
 def test_both_routes_agree_without_contact(kinds, element, shape, diagonal):
     problem = random_problem(kinds, element, shape, diagonal)
@@ -88,11 +98,15 @@ def test_both_routes_agree_without_contact(kinds, element, shape, diagonal):
 @pytest.mark.parametrize("size", [(1.0, 1.0), (30.0, 1.0), (1.0, 30.0), (1e9, 1e9), (1e-9, 1e-9)])
 @pytest.mark.parametrize("side", SIDES)
 def test_both_routes_agree_on_stretched_and_scaled_cells(side, size, element):
-    problem = random_problem(labels_around(side, "contact", "dirichlet", "neumann"), element, (6, 9), "falling", size)
+    problem = random_problem(
+        labels_around(side, "contact", "dirichlet", "neumann"), element, (6, 9), "falling", size
+    )
     assert_routes_agree(problem)
 
 
-@pytest.mark.parametrize("labels", [labels_around(side, "contact", "dirichlet", "neumann") for side in SIDES])
+@pytest.mark.parametrize(
+    "labels", [labels_around(side, "contact", "dirichlet", "neumann") for side in SIDES]
+)
 @pytest.mark.parametrize("quadrature", ["exact", "centroid"])
 def test_both_routes_agree_on_formulas(labels, element, quadrature):
     data = {
@@ -101,7 +115,9 @@ def test_both_routes_agree_on_formulas(labels, element, quadrature):
         "dirichlet": "0.1 + 0.1*x*y",
         "obstacle": "0.1*sin(6*x*y)",
     }
-    problem = discretize_on(grid(12, 16, labels), element, statement(load_quadrature=quadrature, **data))
+    problem = discretize_on(
+        grid(12, 16, labels), element, statement(load_quadrature=quadrature, **data)
+    )
     solution = solve(problem, "fourier")
     assert 0 < solution.active.sum() < solution.active.size
     assert_routes_agree(problem)
@@ -120,7 +136,9 @@ def test_both_routes_agree_on_a_long_contact_line(far, beside, element):
     """More contact dofs than the dense contact matrix takes."""
     labels = labels_around("top", "contact", far, beside)
     problem = discretize_on(
-        grid(200, 4, labels), element, statement(f="40*sin(11*x) - 8", obstacle="0.01*cos(9*x) - 0.02")
+        grid(200, 4, labels),
+        element,
+        statement(f="40*sin(11*x) - 8", obstacle="0.01*cos(9*x) - 0.02"),
     )
     assert problem.contact.size > 150
     fourier, direct = (solve(problem, method) for method in ("fourier", "direct"))
@@ -173,6 +191,10 @@ solution = solve(discretize(ProblemStatement.from_mapping(mapping), "{element}",
 print(solution.method, *sorted({{"scipy", "skfem", "yaml", "jsonschema"}} & set(sys.modules)))
 """
     done = subprocess.run(
-        [sys.executable, "-c", code], env={"PYTHONPATH": str(ROOT / "src")}, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code],
+        env={"PYTHONPATH": str(ROOT / "src")},
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert done.stdout.split() == ["fourier"]

@@ -1,4 +1,7 @@
-"""The multigrid route: its levels, its work, its limits. test_solve holds its answers against the other routes'."""
+"""The multigrid route: its levels, its work, its limits.
+
+test_solve holds its answers against the other routes'.
+"""
 
 import tracemalloc
 from dataclasses import replace
@@ -23,7 +26,9 @@ def square(n, root=4):
     """The unit square's mesh of level n as a refined triangulation."""
     coarse = grid(root)
     mesh = Triangulation(
-        coarse.p, coarse.t, {k: coarse.facets[:, coarse.boundary_facets(k)] for k in set(coarse.labels)}
+        coarse.p,
+        coarse.t,
+        {k: coarse.facets[:, coarse.boundary_facets(k)] for k in set(coarse.labels)},
     )
     while n > root:
         mesh, n = mesh.refined(), n // 2
@@ -39,7 +44,9 @@ def element(request):
     return request.param
 
 
-@pytest.mark.parametrize(("element", "sizes"), [("P1", [4225, 1089, 289, 81]), ("CR", [12416, 4225, 1089, 289, 81])])
+@pytest.mark.parametrize(
+    ("element", "sizes"), [("P1", [4225, 1089, 289, 81]), ("CR", [12416, 4225, 1089, 289, 81])]
+)
 @pytest.mark.parametrize("mesh", [grid(64), square(64)], ids=["grid", "triangulation"])
 def test_levels_are_those_of_the_mesh_and_cr_stands_on_p1(mesh, element, sizes):
     assert [level.A.shape[0] for level in build_hierarchy(problem_on(mesh, element))] == sizes
@@ -51,7 +58,9 @@ def test_levels_follow_the_matrix_where_no_mesh_helps(element):
         assert len(levels) > 2
         assert levels[-1].A.shape[0] <= 100
         for finer, coarser in pairwise(levels):
-            assert abs(finer.P.T @ finer.A @ finer.P - coarser.A).max() < 1e-10 * abs(coarser.A).max()
+            assert (
+                abs(finer.P.T @ finer.A @ finer.P - coarser.A).max() < 1e-10 * abs(coarser.A).max()
+            )
 
 
 def test_coarse_matrices_are_galerkin_products_of_the_finer(element):
@@ -65,13 +74,18 @@ def test_a_cycle_is_symmetric_and_positive(element):
     problem = problem_on(square(16), element)
     held = np.zeros(problem.b.size, dtype=bool)
     held[problem.fixed] = held[problem.contact[::3]] = True
-    cycle, (x, y) = Cycle(build_hierarchy(problem), held), np.random.default_rng(0).standard_normal((2, problem.b.size))
+    cycle, (x, y) = (
+        Cycle(build_hierarchy(problem), held),
+        np.random.default_rng(0).standard_normal((2, problem.b.size)),
+    )
     assert cycle(x) @ y == pytest.approx(x @ cycle(y), rel=1e-12)
     assert cycle(x) @ x > 0
     assert_array_equal(cycle(x)[held], 0)
 
 
-@pytest.mark.parametrize("load", [{}, {"f": "2*pi*sin(2*pi*x)", "g": 0, "dirichlet": 0, "obstacle": 0}])
+@pytest.mark.parametrize(
+    "load", [{}, {"f": "2*pi*sin(2*pi*x)", "g": 0, "dirichlet": 0, "obstacle": 0}]
+)
 def test_the_work_does_not_grow_with_the_mesh(element, load):
     cycles = []
     for n in (32, 64, 128, 256):
@@ -124,16 +138,25 @@ def test_needles_are_solved_or_refused(element):
     mesh = delaunay(5, inner=2000, side=40)
     problem = discretize_on(mesh, element, statement(**DATA))
     if element == "CR":
-        with pytest.raises(SolverError, match=r"multigrid does not apply, there are cells \d+ times as long as high"):
+        with pytest.raises(
+            SolverError,
+            match=r"multigrid does not apply, there are cells \d+ times as long as high",
+        ):
             solve(problem, "multigrid")
         return
     assert_allclose(solve(problem, "multigrid").u, solve(problem, "direct").u, rtol=0, atol=1e-9)
 
 
 def test_auto_takes_it_for_large_problems_on_refined_regular_cells():
-    large, small, stretched = square(256), square(32), grid(200, size=(1.0, 0.02), labels=("contact",) * 4)
+    large, small, stretched = (
+        square(256),
+        square(32),
+        grid(200, size=(1.0, 0.02), labels=("contact",) * 4),
+    )
     data = {"f": -1, "g": 0, "dirichlet": 0, "obstacle": 0}
-    found = [solve(discretize_on(mesh, "P1", statement(**data))) for mesh in (large, small, stretched)]
+    found = [
+        solve(discretize_on(mesh, "P1", statement(**data))) for mesh in (large, small, stretched)
+    ]
     assert [solution.method for solution in found] == ["multigrid", "direct", "direct"]
     assert "refined" in found[0].reason
 
@@ -151,16 +174,22 @@ def test_a_matrix_that_is_not_symmetric_is_refused(element):
 
 @pytest.mark.parametrize("variation", [1e-3, 1e-5, 3e-7])
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])
-@pytest.mark.parametrize("sides", [("contact", "contact", "dirichlet", "dirichlet"), ("contact", "dirichlet") * 2])
+@pytest.mark.parametrize(
+    "sides", [("contact", "contact", "dirichlet", "dirichlet"), ("contact", "dirichlet") * 2]
+)
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_a_body_that_hardly_varies_far_above_its_obstacle(element, sides, diagonal, variation):
-    """The first contact set leaves a u that varies much more; the error of the last one is not measured by it."""
+    """The first contact set leaves a u that varies much more; the error of the last one is not
+    measured by it.
+    """
     domain = {"origin": [0, 0], "size": [1, 16], "diagonal": diagonal, "cells": "per-side"}
     data = {"f": -1e-15, "g": 0, "obstacle": -8.7, "dirichlet": f"14.2 + {variation}*(x + y/16)"}
     boundary = dict(zip(("bottom", "right", "top", "left"), sides, strict=True))
     scene = {"domain": domain, "boundary": boundary, "data": data, "load_quadrature": "exact"}
     problem = discretize(ProblemStatement.from_mapping(scene), element, 1)
     solution, expected = solve(problem, "multigrid"), solve(problem, "direct")
-    found, wanted = (one.deviation + (one.constant - expected.constant) for one in (solution, expected))
+    found, wanted = (
+        one.deviation + (one.constant - expected.constant) for one in (solution, expected)
+    )
     assert_allclose(found, wanted, rtol=0, atol=1e-12 * np.ptp(wanted))
     assert solution.residual < 1e-12

@@ -1,8 +1,8 @@
 """What `solved` promises: u, forces and contact set, on problems whose matrix has huge entries.
 
-The right values of the contact set and of the total force come from independent solvers: for the graded squares one
-by tensor products in extended precision, for the inclusions a factorisation whose signs were confirmed in extended
-precision.
+The right values of the contact set and of the total force come from independent solvers: for the
+graded squares one by tensor products in extended precision, for the inclusions a factorisation
+whose signs were confirmed in extended precision.
 """
 
 from dataclasses import replace
@@ -27,7 +27,9 @@ LAYER = "where(y < 1/16, where(sin(40*x) > 0, {0}, 1), 1)"
 def paper(element, n, towards=(), exponent=1, coefficient=1, **data):
     """The paper's problem on a graded square, or with a coefficient."""
     domain = {"grade": {"towards": list(towards), "exponent": exponent}} if towards else {}
-    asked = statement(load_quadrature="centroid", domain=domain, f=FORCE, coefficient=coefficient, **data)
+    asked = statement(
+        load_quadrature="centroid", domain=domain, f=FORCE, coefficient=coefficient, **data
+    )
     return discretize(asked, element, n)
 
 
@@ -64,7 +66,9 @@ def test_grading_towards_the_contact_side(n, exponent, methods, binding):
 def test_multigrid_refuses_what_no_levels_can_prove(n, exponent):
     """It once called all 41 vertices in contact, and that solved."""
     problem = paper("P1", n, ["bottom"], exponent)
-    why = r"multigrid does not apply, there are cells \d+ times as long as high, and P1 takes at most"
+    why = (
+        r"multigrid does not apply, there are cells \d+ times as long as high, and P1 takes at most"
+    )
     with pytest.raises(SolverError, match=why):
         solve(problem, "multigrid")
 
@@ -105,7 +109,9 @@ def test_multigrid_on_graded_cells():
     assert_proved(solve(problem, "multigrid"), truth)
 
 
-@pytest.mark.parametrize(("towards", "exponent"), [(["bottom"], 2), (["bottom"], 8), (["bottom", "left"], 10)])
+@pytest.mark.parametrize(
+    ("towards", "exponent"), [(["bottom"], 2), (["bottom"], 8), (["bottom", "left"], 10)]
+)
 def test_the_estimate_holds_where_cells_are_graded(element, towards, exponent):
     problem = paper(element, 24, towards, exponent)
     solution = solve(problem)
@@ -113,7 +119,9 @@ def test_the_estimate_holds_where_cells_are_graded(element, towards, exponent):
 
 
 def assert_proved(solution, truth):
-    """The estimates hold, are no more than a thousand times too large, and no sign outside `undecided` is wrong."""
+    """The estimates hold, are no more than a thousand times too large, and no sign outside
+    `undecided` is wrong.
+    """
     variation, eps = float(truth.variation), np.finfo(float).eps
     expected = truth.displacement + (truth.shift - solution.constant)
     u_error = float(np.abs(solution.deviation - expected).max()) / variation
@@ -154,7 +162,9 @@ def test_grading_towards_two_sides():
 
 
 def test_auto_falls_back_to_direct_and_says_so(monkeypatch):
-    problem = discretize_on(grid(200, labels=("contact", "dirichlet", "neumann", "neumann")), "P1", statement(**DATA))
+    problem = discretize_on(
+        grid(200, labels=("contact", "dirichlet", "neumann", "neumann")), "P1", statement(**DATA)
+    )
 
     def lost(problem, guess):
         raise SolverError("multigrid: lost")
@@ -193,9 +203,13 @@ def test_the_force_per_length_belongs_to_the_contact_points(element, mesh):
 @pytest.mark.parametrize("contrast", [1e18, 1e30])
 def test_contrasts_that_doubles_cannot_hold_are_refused(element, contrast):
     """Stiff parts of 1e24 and more beside 1 were once called solved, wrong by up to 100 %."""
-    problem = discretize_on(grid(8), element, statement(f="6*sin(6*x)", coefficient=f"where(y < .5, {contrast}, 1)"))
+    problem = discretize_on(
+        grid(8), element, statement(f="6*sin(6*x)", coefficient=f"where(y < .5, {contrast}, 1)")
+    )
     for method in ("auto", "direct", "multigrid"):
-        with pytest.raises(SolverError, match=r"data\.coefficient: from 1 to .* cannot hold side by side"):
+        with pytest.raises(
+            SolverError, match=r"data\.coefficient: from 1 to .* cannot hold side by side"
+        ):
             solve(problem, method)
 
 
@@ -221,7 +235,9 @@ def test_narrow_grids_by_the_fourier_route(element, size):
 
 
 def two_squares(right):
-    """Two squares apart; the left one hangs from a Dirichlet side, the right one is in contact below, or free."""
+    """Two squares apart; the left one hangs from a Dirichlet side, the right one is in contact
+    below, or free.
+    """
     left, other = grid(3).skfem, grid(3).skfem.translated((2.0, 0.0))
     both = MeshTri(np.hstack([left.p, other.p]), np.hstack([left.t, other.t + left.nvertices]))
     x, y = both.p[:, both.facets].mean(axis=1)
@@ -229,7 +245,9 @@ def two_squares(right):
     x, y = x[edge], y[edge]
     names = {"dirichlet": (x < 1.5) & (y == 1), right: (x > 1.5) & (y == 0)}
     names["neumann"] = ~np.any(list(names.values()), axis=0) | names.get("neumann", False)
-    return Triangulation.from_skfem(both.with_boundaries({name: edge[has] for name, has in names.items()}))
+    return Triangulation.from_skfem(
+        both.with_boundaries({name: edge[has] for name, has in names.items()})
+    )
 
 
 @pytest.mark.parametrize(
@@ -265,15 +283,26 @@ def test_a_part_that_rests_on_the_obstacle_alone(element):
 @pytest.mark.parametrize("guess", [[True], [0, 1, 2], np.full(9, np.nan)])
 def test_a_guess_is_a_mask_of_the_contact_dofs(guess):
     problem = discretize_on(grid(8), "P1", statement(f=-1))
-    with pytest.raises(SolverError, match=r"guess: shape .* give a mask of the contact dofs, shape \(9,\) of bool"):
+    with pytest.raises(
+        SolverError, match=r"guess: shape .* give a mask of the contact dofs, shape \(9,\) of bool"
+    ):
         solve(problem, guess=np.asarray(guess))
 
 
 BROKEN = {
     "too few": ({"lower": np.zeros(3)}, r"problem\.lower: 3 values for 5 dofs in problem\.contact"),
-    "beyond": ({"contact": np.array([0, 1, 2, 3, 99])}, r"problem\.contact: a dof is not one of the 25"),
-    "twice": ({"contact": np.array([0, 1, 2, 3, 24])}, r"problem\.contact: a dof is in problem\.fixed, too"),
-    "no material": ({"coefficient": np.zeros(32)}, r"data\.coefficient: not positive and finite everywhere"),
+    "beyond": (
+        {"contact": np.array([0, 1, 2, 3, 99])},
+        r"problem\.contact: a dof is not one of the 25",
+    ),
+    "twice": (
+        {"contact": np.array([0, 1, 2, 3, 24])},
+        r"problem\.contact: a dof is in problem\.fixed, too",
+    ),
+    "no material": (
+        {"coefficient": np.zeros(32)},
+        r"data\.coefficient: not positive and finite everywhere",
+    ),
 }
 
 

@@ -44,7 +44,9 @@ def scales(problem, u):
 def test_it_vanishes_at_the_solution_and_gives_the_multiplier(problem, solution):
     residual, multiplier = kkt_residual(problem, solution.u)
     assert residual < 1e-14
-    np.testing.assert_allclose(multiplier, (problem.A @ solution.u - problem.b)[problem.contact], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(
+        multiplier, (problem.A @ solution.u - problem.b)[problem.contact], rtol=0, atol=1e-13
+    )
 
 
 def moved(problem, solution, where):
@@ -61,7 +63,9 @@ def moved(problem, solution, where):
     return u
 
 
-@pytest.mark.parametrize("where", ["inside", "under the obstacle", "off the obstacle", "free contact", "dirichlet"])
+@pytest.mark.parametrize(
+    "where", ["inside", "under the obstacle", "off the obstacle", "free contact", "dirichlet"]
+)
 def test_a_displacement_anywhere_is_seen(problem, solution, where):
     residual, _ = kkt_residual(problem, moved(problem, solution, where))
     assert 1e-3 < residual < 0.1
@@ -69,7 +73,9 @@ def test_a_displacement_anywhere_is_seen(problem, solution, where):
 
 @pytest.mark.parametrize("power", [1, 2, 4, 6, 8])
 def test_no_cell_is_too_small_to_be_seen(element, power):
-    """On vertices at (i/8)**power the rows of A differ by up to 15 powers of ten; a wrong dof counts in all alike."""
+    """On vertices at (i/8)**power the rows of A differ by up to 15 powers of ten; a wrong dof
+    counts in all alike.
+    """
     mesh = grid(8).skfem
     problem = discretize_on(labelled(MeshTri(mesh.p**power, mesh.t)), element, statement(**DATA))
     u = solve(problem, "direct").u
@@ -138,7 +144,9 @@ def test_it_is_the_largest_of_the_documented_violations(problem, solution):
 @pytest.mark.parametrize("power", [-900, -30, 30, 900])
 def test_it_has_no_unit(problem, solution, power):
     u = solution.u + 1e-3 * np.random.default_rng(0).standard_normal(solution.u.size)
-    parts = {name: np.ldexp(getattr(problem, name), power) for name in ("b", "lower", "fixed_values")}
+    parts = {
+        name: np.ldexp(getattr(problem, name), power) for name in ("b", "lower", "fixed_values")
+    }
     scaled = replace(problem, **parts)
     for q in (problem, scaled):
         assert q.A is not None
@@ -166,7 +174,13 @@ def test_nothing_at_all_is_solved_by_nothing_and_nothing_else_is(element):
 
 @pytest.mark.parametrize(
     ("residual", "status"),
-    [(0.0, "solved"), (1e-10, "solved"), (1.1e-10, "inaccurate"), (1e-6, "inaccurate"), (1.1e-6, "failed")],
+    [
+        (0.0, "solved"),
+        (1e-10, "solved"),
+        (1.1e-10, "inaccurate"),
+        (1e-6, "inaccurate"),
+        (1.1e-6, "failed"),
+    ],
 )
 def test_a_residual_has_a_name(residual, status):
     assert status_of(residual) == status

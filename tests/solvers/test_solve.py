@@ -44,11 +44,15 @@ def method(request):
 
 
 def with_data(problem, **change):
-    return replace(problem, **{name: change(getattr(problem, name)) for name, change in change.items()})
+    return replace(
+        problem, **{name: change(getattr(problem, name)) for name, change in change.items()}
+    )
 
 
 def scaled(problem, power):
-    return replace(problem, **{k: np.ldexp(getattr(problem, k), power) for k in ("b", "lower", "fixed_values")})
+    return replace(
+        problem, **{k: np.ldexp(getattr(problem, k), power) for k in ("b", "lower", "fixed_values")}
+    )
 
 
 # What a solution is
@@ -79,7 +83,9 @@ def test_contact_carries_what_the_dirichlet_part_does_not(problem):
     """The reactions and the contact force balance the load: test with the constant 1."""
     solution = solve(problem)
     reactions = (problem.A @ solution.u - problem.b)[problem.fixed]
-    assert problem.b.sum() + reactions.sum() + solution.multiplier.sum() == pytest.approx(0, abs=1e-12)
+    assert problem.b.sum() + reactions.sum() + solution.multiplier.sum() == pytest.approx(
+        0, abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("diagonal", ["falling", "rising"])
@@ -106,13 +112,17 @@ def test_a_turned_body_has_the_turned_solution(element, turns):
     }
     labels = tuple(np.roll(PAPER, turns))
     turned = discretize_on(
-        grid(8, labels=labels, diagonal="rising" if turns % 2 else "falling"), element, statement(**data)
+        grid(8, labels=labels, diagonal="rising" if turns % 2 else "falling"),
+        element,
+        statement(**data),
     )
     x, y = nodes(plain)
     for _ in range(turns):
         x, y = 1 - y, x
     order = np.lexsort(np.round([x, y], 12)), np.lexsort(np.round(nodes(turned), 12))
-    np.testing.assert_allclose(solve(plain).u[order[0]], solve(turned).u[order[1]], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(
+        solve(plain).u[order[0]], solve(turned).u[order[1]], rtol=0, atol=1e-13
+    )
 
 
 def test_renumbering_changes_nothing(element):
@@ -146,8 +156,13 @@ def test_powers_of_two_pass_through_conjugate_gradients(element, power):
 
 @pytest.mark.parametrize("size", [1e-9, 1e-3, 1e3, 1e9])
 def test_the_unit_of_length_does_not_matter(element, method, size):
-    """-Laplace u = f with x in other units: f by size**-2, g by size**-1, the contact force (per depth) as it is."""
-    data = {name: text.replace("x", f"(x/{size})").replace("y", f"(y/{size})") for name, text in DATA.items()}
+    """-Laplace u = f with x in other units: f by size**-2, g by size**-1, the contact force (per
+    depth) as it is.
+    """
+    data = {
+        name: text.replace("x", f"(x/{size})").replace("y", f"(y/{size})")
+        for name, text in DATA.items()
+    }
     data |= {"f": f"({data['f']})/{size}**2", "g": f"({data['g']})/{size}"}
     plain = solve(discretize_on(grid(8), element, statement(**DATA)), method)
     other = solve(discretize_on(grid(8, size=(size, size)), element, statement(**data)), method)
@@ -171,10 +186,12 @@ def test_case_08_the_origin_does_not_matter(element, method, origin):
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 8, 16])
 @pytest.mark.parametrize("obstacle", [-1, 0, 0.25, 0.5, 0.75, 2])
 def test_a_constant_load_on_a_flat_obstacle(element, method, diagonal, n, obstacle):
-    """f = 1 (E5): the contact side lies at max(1/2, obstacle) and presses with max(0, obstacle - 1/2).
+    """f = 1 (E5): the contact side lies at max(1/2, obstacle) and presses with max(0, obstacle -
+    1/2).
 
-    At 1/2 every contact dof is biactive, where the plain active set method cycles. P1's load is larger by h^2/12 at
-    one corner of the contact side and less by as much at the other, which is the most that can press there.
+    At 1/2 every contact dof is biactive, where the plain active set method cycles. P1's load is
+    larger by h^2/12 at one corner of the contact side and less by as much at the other, which is
+    the most that can press there.
     """
     method = "direct" if n == 1 else method
     problem = discretize_on(grid(n, diagonal=diagonal), element, statement(f=1, obstacle=obstacle))
@@ -188,7 +205,9 @@ def test_a_constant_load_on_a_flat_obstacle(element, method, diagonal, n, obstac
         assert solution.iterations <= 3
         if element == "P1":
             y = nodes(problem)[1]
-            np.testing.assert_allclose(solution.u, 0.5 * y * (1 - y) + obstacle * (1 - y), rtol=0, atol=1e-13)
+            np.testing.assert_allclose(
+                solution.u, 0.5 * y * (1 - y) + obstacle * (1 - y), rtol=0, atol=1e-13
+            )
 
 
 def test_nothing_gives_exactly_nothing(mesh_of, element):
@@ -201,10 +220,16 @@ def test_nothing_gives_exactly_nothing(mesh_of, element):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("value", [1, 0.1, -3e5])
-@pytest.mark.parametrize("obstacle", ["{} - 7", "{} - 1 - 0.001*x", "{} - where(x < 0.5, 0, 1)", "{}"])
-def test_a_constant_that_meets_every_condition_is_the_answer_itself(element, method, value, obstacle):
+@pytest.mark.parametrize(
+    "obstacle", ["{} - 7", "{} - 1 - 0.001*x", "{} - where(x < 0.5, 0, 1)", "{}"]
+)
+def test_a_constant_that_meets_every_condition_is_the_answer_itself(
+    element, method, value, obstacle
+):
     """Not with its own rounding, which would be of no size to be measured by."""
-    problem = discretize_on(grid(8), element, statement(dirichlet=value, obstacle=obstacle.format(value)))
+    problem = discretize_on(
+        grid(8), element, statement(dirichlet=value, obstacle=obstacle.format(value))
+    )
     solution = solve(problem, method)
     assert np.all(solution.u == value)
     assert not solution.multiplier.any()
@@ -242,9 +267,13 @@ def test_an_obstacle_out_of_reach_is_no_obstacle(mesh_of, element):
     np.testing.assert_allclose(solution.u, without.u, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("labels", [FLOATING, ("contact", "neumann", "contact", "neumann"), ("contact",) * 4])
+@pytest.mark.parametrize(
+    "labels", [FLOATING, ("contact", "neumann", "contact", "neumann"), ("contact",) * 4]
+)
 def test_a_body_without_dirichlet_part_rests_on_the_obstacle(mesh_of, element, labels):
-    problem = discretize_on(mesh_of(labels), element, statement(f="x - 0.6", obstacle="0.05*sin(9*x + y)"))
+    problem = discretize_on(
+        mesh_of(labels), element, statement(f="x - 0.6", obstacle="0.05*sin(9*x + y)")
+    )
     solution = solve(problem)
     assert solution.active.any()
     assert solution.multiplier.sum() == pytest.approx(0.1, rel=1e-11)
@@ -254,7 +283,12 @@ def test_a_body_without_dirichlet_part_rests_on_the_obstacle(mesh_of, element, l
 def test_a_guess_changes_no_answer(problem):
     solution, rng = solve(problem), np.random.default_rng(0)
     size = problem.contact.size
-    for guess in (solution.active, np.zeros(size, bool), np.ones(size, bool), rng.random(size) < 0.5):
+    for guess in (
+        solution.active,
+        np.zeros(size, bool),
+        np.ones(size, bool),
+        rng.random(size) < 0.5,
+    ):
         again = solve(problem, guess=guess)
         np.testing.assert_array_equal(again.active, solution.active)
         np.testing.assert_allclose(again.u, solution.u, rtol=0, atol=1e-13)
@@ -262,7 +296,10 @@ def test_a_guess_changes_no_answer(problem):
 
 
 def test_a_problem_is_left_as_it_was(problem):
-    before = {name: getattr(problem, name).copy() for name in ("b", "lower", "fixed_values", "contact", "fixed")}
+    before = {
+        name: getattr(problem, name).copy()
+        for name in ("b", "lower", "fixed_values", "contact", "fixed")
+    }
     solve(problem)
     for name, values in before.items():
         np.testing.assert_array_equal(getattr(problem, name), values)
@@ -286,20 +323,27 @@ def test_stretched_cells_cost_the_fourier_route_no_digits(element, aspect, near,
     flux = "where(x < 0.001, -1, where(x > 0.999, 1, 0))"
     mesh = grid(8, labels=(near, beside, far, beside), size=(1.0, aspect))
     problem = discretize_on(mesh, element, statement(dirichlet="1 + x", g=flux))
-    np.testing.assert_allclose(solve(problem, "fourier").u, 1 + nodes(problem)[0], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        solve(problem, "fourier").u, 1 + nodes(problem)[0], rtol=0, atol=1e-14
+    )
 
 
-@pytest.mark.parametrize("aspect", [1, 1e-2, 2**-7, 1e-3, 2**-10, 1e-4, 2**-16, 1e-5, 2**-20, 1e-6, 2**-27, 1e-8])
+@pytest.mark.parametrize(
+    "aspect", [1, 1e-2, 2**-7, 1e-3, 2**-10, 1e-4, 2**-16, 1e-5, 2**-20, 1e-6, 2**-27, 1e-8]
+)
 @pytest.mark.parametrize("beside", ["contact", "dirichlet", "neumann"])
 @pytest.mark.parametrize("near", ["contact", "neumann"])
 def test_the_direct_route_never_calls_a_wrong_answer_solved(element, aspect, near, beside):
-    """The same patch test: the matrix rounds the weak direction away, or with powers of two its factors do.
+    """The same patch test: the matrix rounds the weak direction away, or with powers of two its
+    factors do.
 
     No residual shows it (it stays below 1e-15); the accuracy does.
     """
     flux = "where(x < 0.001, -1, where(x > 0.999, 1, 0))"
     mesh = grid(8, labels=(near, beside, "neumann", "dirichlet"), size=(1.0, aspect))
-    problem = discretize_on(mesh, element, statement(dirichlet="1 + x", g=flux, obstacle="where(x > 0.999, 2, 0)"))
+    problem = discretize_on(
+        mesh, element, statement(dirichlet="1 + x", g=flux, obstacle="where(x > 0.999, 2, 0)")
+    )
     try:
         solution = solve(problem, "direct")
     except SolverError:
@@ -316,14 +360,24 @@ def test_the_direct_route_never_calls_a_wrong_answer_solved(element, aspect, nea
 
 
 CHOICES = {
-    "grid": (lambda: grid(4), {}, "fourier", "uniform grid, equal conditions beside the contact side"),
+    "grid": (
+        lambda: grid(4),
+        {},
+        "fourier",
+        "uniform grid, equal conditions beside the contact side",
+    ),
     "no contact": (
         lambda: grid(4, labels=("neumann", "neumann", "dirichlet", "neumann")),
         {},
         "fourier",
         "no contact part: plain Poisson",
     ),
-    "triangulation": (lambda: Triangulation.from_skfem(grid(4).skfem), {}, "direct", "the mesh is not a uniform grid"),
+    "triangulation": (
+        lambda: Triangulation.from_skfem(grid(4).skfem),
+        {},
+        "direct",
+        "the mesh is not a uniform grid",
+    ),
     "unlike sides": (
         lambda: grid(4, labels=("contact", "dirichlet", "dirichlet", "neumann")),
         {},
@@ -354,7 +408,10 @@ def test_an_unknown_method_is_refused_with_the_known_ones():
 
 
 def test_a_route_that_does_not_apply_says_why():
-    with pytest.raises(SolverError, match="fourier does not apply, the mesh is not a uniform grid; use auto or direct"):
+    with pytest.raises(
+        SolverError,
+        match="fourier does not apply, the mesh is not a uniform grid; use auto or direct",
+    ):
         solve(discretize_on(delaunay(0), "P1", statement()), "fourier")
 
 
@@ -372,7 +429,9 @@ def test_a_route_not_taken_is_not_imported(monkeypatch):
 def test_data_that_are_not_finite_are_named(problem, method, name, value):
     values = getattr(problem, name).copy()
     values[1] = value
-    with pytest.raises(SolverError, match=rf"problem\.{name}: entry 1 is {value}; all data must be finite"):
+    with pytest.raises(
+        SolverError, match=rf"problem\.{name}: entry 1 is {value}; all data must be finite"
+    ):
         solve(replace(problem, **{name: values}), method if problem.grid else "direct")
 
 

@@ -10,7 +10,8 @@ from signorini.solvers.spectral import SpectralContact, contact_operator
 from signorini.work import counting
 
 BASES = ("vertex_cosines", "vertex_sines", "midpoint_cosines", "midpoint_sines")
-# The symbol of a half plane is the root of the second difference; the second one has constants for a kernel.
+# The symbol of a half plane is the root of the second difference; the second one has constants for
+# a kernel.
 SYMBOLS = {"held": lambda e: np.sqrt(e + 1e-3), "floating": lambda e: np.sqrt(e)}
 
 
@@ -63,7 +64,9 @@ def test_free_dofs_are_solved_to_rounding(spectral, dense):
     for free in free_masks(spectral.size):
         rhs = rng.standard_normal(free.sum())
         x = spectral.solve_free(free, rhs)
-        np.testing.assert_allclose(x, dense.solve_free(free, rhs), rtol=0, atol=1e-11 * np.abs(x).max())
+        np.testing.assert_allclose(
+            x, dense.solve_free(free, rhs), rtol=0, atol=1e-11 * np.abs(x).max()
+        )
 
 
 def test_the_last_answer_starts_the_next_solve(spectral):
@@ -79,7 +82,8 @@ def test_the_last_answer_starts_the_next_solve(spectral):
 
 
 @pytest.mark.parametrize(
-    ("name", "symbol"), [(name, "held") for name in BASES] + [(name, "floating") for name in BASES if "cos" in name]
+    ("name", "symbol"),
+    [(name, "held") for name in BASES] + [(name, "floating") for name in BASES if "cos" in name],
 )
 def test_contact_problems_have_the_solution_of_the_array(name, symbol, size):
     basis = getattr(transforms, name)(size)
@@ -95,10 +99,14 @@ def test_contact_problems_have_the_solution_of_the_array(name, symbol, size):
         ]
         assert results[0].residual < 1e-12
         np.testing.assert_array_equal(results[0].active, results[1].active)
-        np.testing.assert_allclose(results[0].w, results[1].w, rtol=0, atol=1e-10 * results[1].w.max())
+        np.testing.assert_allclose(
+            results[0].w, results[1].w, rtol=0, atol=1e-10 * results[1].w.max()
+        )
 
 
-@pytest.mark.parametrize(("n", "kind"), [(95, DenseContact), (96, SpectralContact), (1024, SpectralContact)])
+@pytest.mark.parametrize(
+    ("n", "kind"), [(95, DenseContact), (96, SpectralContact), (1024, SpectralContact)]
+)
 def test_an_array_is_formed_where_it_is_small(n, kind):
     basis = transforms.vertex_cosines(n)
     assert type(contact_operator(basis, SYMBOLS["held"](basis.eigenvalues))) is kind

@@ -7,7 +7,8 @@ import scipy.fft
 from signorini.solvers import transforms
 
 BASES = {
-    # name: (sizes of grids it serves, the transform it is, up to a factor; difference at each end: see `matrix`)
+    # name: (sizes of grids it serves, the transform it is, up to a factor; difference at each end:
+    # see `matrix`)
     "vertex_cosines": (lambda x: scipy.fft.dct(x, 1), "flux at a vertex"),
     "vertex_sines": (lambda x: scipy.fft.dst(x, 1), "value at a vertex"),
     "midpoint_cosines": (lambda x: scipy.fft.dct(x, 2), "flux half a cell outside"),
@@ -26,11 +27,15 @@ def basis(request, name):
 
 
 def matrix(name, size):
-    """-x[i-1] + 2 x[i] - x[i+1] with the end conditions of a basis; for vertex cosines times the mass."""
+    """-x[i-1] + 2 x[i] - x[i+1] with the end conditions of a basis; for vertex cosines times the
+    mass.
+    """
     D = 2.0 * np.eye(size) - np.eye(size, k=1) - np.eye(size, k=-1)
-    D[[0, -1], [0, -1]] = {"flux at a vertex": 1, "value at a vertex": 2, "flux half a cell outside": 1}.get(
-        BASES[name][1], 3
-    )
+    D[[0, -1], [0, -1]] = {
+        "flux at a vertex": 1,
+        "value at a vertex": 2,
+        "flux half a cell outside": 1,
+    }.get(BASES[name][1], 3)
     return D
 
 
@@ -88,6 +93,8 @@ def test_scipy_takes_large_arrays_and_any_number_of_threads_gives_the_same_bits(
         found.append((basis.forward(x), basis.backward(x, out=x.copy())))
     np.testing.assert_allclose(found[0][0], expected[0], rtol=0, atol=1e-12)
     np.testing.assert_allclose(found[0][1], expected[1], rtol=0, atol=1e-12)
-    assert any(not np.array_equal(a, b) for a, b in zip(found[0], expected, strict=True))  # it was SciPy
+    assert any(
+        not np.array_equal(a, b) for a, b in zip(found[0], expected, strict=True)
+    )  # it was SciPy
     for other in found[1:]:
         np.testing.assert_array_equal(other, found[0])

@@ -45,7 +45,11 @@ def test_the_stages_add_up_and_medians_lie_within_the_spread():
     row = benchmark.spread(runs)
     for name in TIMES:
         assert row[f"{name}_min"] <= row[name] <= row[f"{name}_max"]
-        assert sorted(run[name] for run in runs) == [row[f"{name}_min"], row[name], row[f"{name}_max"]]
+        assert sorted(run[name] for run in runs) == [
+            row[f"{name}_min"],
+            row[name],
+            row[f"{name}_max"],
+        ]
 
 
 def test_the_matrix_is_assembly_whoever_asks_for_it():
@@ -53,7 +57,9 @@ def test_the_matrix_is_assembly_whoever_asks_for_it():
     assert seconds == []
     solution = solve(problem, "direct")
     assert len(seconds) == 1
-    np.testing.assert_array_equal(solution.u, solve(discretize_on(delaunay(0), "P1", statement(**DATA))).u)
+    np.testing.assert_array_equal(
+        solution.u, solve(discretize_on(delaunay(0), "P1", statement(**DATA))).u
+    )
 
 
 def test_a_route_that_needs_no_matrix_assembles_none():
@@ -63,16 +69,22 @@ def test_a_route_that_needs_no_matrix_assembles_none():
 
 
 def test_a_route_that_does_not_apply_says_so():
-    row, u = benchmark.measure(statement(domain={"diagonal": "criss-cross"}), "P1", 4, "fourier", REPEATS, 4)
+    row, u = benchmark.measure(
+        statement(domain={"diagonal": "criss-cross"}), "P1", 4, "fourier", REPEATS, 4
+    )
     assert u is None
     assert row["status"] == "skipped"
     assert "fourier does not apply" in row["note"]
 
 
 def test_more_repeats_while_there_is_time():
-    row, _ = benchmark.measure(PAPER, "P1", 4, "fourier", {"least": 1, "most": 7, "seconds": 60.0}, 4)
+    row, _ = benchmark.measure(
+        PAPER, "P1", 4, "fourier", {"least": 1, "most": 7, "seconds": 60.0}, 4
+    )
     assert row["repeats"] == 7
-    row, _ = benchmark.measure(PAPER, "P1", 4, "fourier", {"least": 2, "most": 7, "seconds": 1e-9}, 4)
+    row, _ = benchmark.measure(
+        PAPER, "P1", 4, "fourier", {"least": 2, "most": 7, "seconds": 1e-9}, 4
+    )
     assert row["repeats"] == 2
 
 
@@ -90,8 +102,14 @@ def test_columns_are_the_counts_of_a_solve():
     [
         (None, None),
         ({"status": "measured", "total_min": "0.5", "memory": "1000"}, None),
-        ({"status": "measured", "total_min": "0.7", "memory": "1000"}, "about 4 s foreseen, the limit is 3 s"),
-        ({"status": "measured", "total_min": "0.1", "memory": "30e6"}, "about 135 MB foreseen, the limit is 100 MB"),
+        (
+            {"status": "measured", "total_min": "0.7", "memory": "1000"},
+            "about 4 s foreseen, the limit is 3 s",
+        ),
+        (
+            {"status": "measured", "total_min": "0.1", "memory": "30e6"},
+            "about 135 MB foreseen, the limit is 100 MB",
+        ),
         ({"status": "skipped", "note": "does not apply"}, "does not apply"),
     ],
 )
@@ -103,20 +121,36 @@ def test_why_a_level_is_left_out(before, reason):
 
 
 def point(n, method="direct", element="P1", scene="s", **more):
-    """A point whose error is 1/n**2 (H1: 1/n), whose time is dofs**1.5, and which needs 100 bytes per unknown."""
+    """A point whose error is 1/n**2 (H1: 1/n), whose time is dofs**1.5, and which needs 100 bytes
+    per unknown.
+    """
     dofs = n**2
     times = {"total": dofs**1.5, "total_min": 0.9 * dofs**1.5, "total_max": 1.2 * dofs**1.5}
-    row = {"scene": scene, "element": element, "method": method, "n": n, "dofs": dofs, "memory": 1e4 * dofs}
-    return row | {"status": "measured", "l2": n**-2.0, "h1_semi": None, "h1": 1.0 / n} | times | more
+    row = {
+        "scene": scene,
+        "element": element,
+        "method": method,
+        "n": n,
+        "dofs": dofs,
+        "memory": 1e4 * dofs,
+    }
+    return (
+        row | {"status": "measured", "l2": n**-2.0, "h1_semi": None, "h1": 1.0 / n} | times | more
+    )
 
 
 def test_costs_between_levels_follow_the_power_law():
-    found = {(row["norm"], row["target"]): row for row in summary.reach([point(n) for n in (2, 4, 8, 16, 32)])}
+    found = {
+        (row["norm"], row["target"]): row
+        for row in summary.reach([point(n) for n in (2, 4, 8, 16, 32)])
+    }
     row = found["l2", 1e-2]
     assert row["status"] == "between levels"
     np.testing.assert_allclose(row["dofs"], 100.0, rtol=0, atol=1e-9)
     np.testing.assert_allclose(row["total"], 1000.0, rtol=0, atol=1e-8)
-    np.testing.assert_allclose([row["total_min"], row["total_max"]], [900.0, 1200.0], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(
+        [row["total_min"], row["total_max"]], [900.0, 1200.0], rtol=0, atol=1e-8
+    )
     np.testing.assert_allclose(row["memory"], 1e6, rtol=0, atol=1e-4)
     np.testing.assert_allclose(found["h1", 1e-1]["dofs"], 100.0, rtol=0, atol=1e-9)
     assert found["h1", 1e-2]["status"] == "not reached"
@@ -147,8 +181,14 @@ def test_memory_of_no_page_is_a_page():
 
 def both(**cr):
     """The costs of an error for P1, by two routes, and for CR."""
-    points = [point(n, method) | {"total": slow * n**3.0} for n in (2, 4, 8) for method, slow in (("a", 5), ("b", 1))]
-    points += [point(n, "a", "CR", **{key: value * n**2 for key, value in cr.items()}) for n in (2, 4, 8)]
+    points = [
+        point(n, method) | {"total": slow * n**3.0}
+        for n in (2, 4, 8)
+        for method, slow in (("a", 5), ("b", 1))
+    ]
+    points += [
+        point(n, "a", "CR", **{key: value * n**2 for key, value in cr.items()}) for n in (2, 4, 8)
+    ]
     return summary.fastest(summary.reach(points, targets=[0.03]))["s", "l2", 0.03]
 
 
@@ -175,7 +215,10 @@ def test_more_unknowns_lose_per_unknown():
 
 def test_little_memory_and_the_coarsest_level_are_no_comparison():
     assert "memory" not in summary.better(both(memory=1.0))
-    assert summary.better({"P1": {"status": "coarsest level"}, "CR": {"status": "between levels"}}) == {}
+    assert (
+        summary.better({"P1": {"status": "coarsest level"}, "CR": {"status": "between levels"}})
+        == {}
+    )
     assert summary.better({"P1": {"status": "between levels"}}) == {}
 
 
@@ -197,7 +240,12 @@ def test_errors_belong_to_scene_element_and_level():
 
 def test_a_coarse_reference_bends_errors_by_so_much():
     fine = {"s": [{"element": "P1", "n": "4", "l2": 0.50, "h1": 0.8}]}
-    coarse = {"s": [{"element": "P1", "n": "4", "l2": 0.49, "h1": None}, {"element": "P1", "n": "8", "l2": 1, "h1": 1}]}
+    coarse = {
+        "s": [
+            {"element": "P1", "n": "4", "l2": 0.49, "h1": None},
+            {"element": "P1", "n": "8", "l2": 1, "h1": 1},
+        ]
+    }
     (row,) = summary.bending(coarse, fine)
     assert (row["n"], row["norm"]) == (4, "l2")
     np.testing.assert_allclose(row["change"], -0.02, rtol=0, atol=1e-15)
@@ -210,6 +258,9 @@ def test_the_machine_says_what_a_timing_depends_on():
     told = machine.sentence(machine.describe(["numpy", "no-such-package"]))
     assert f"numpy {np.__version__}" in told
     assert "no-such-package" not in told
-    assert all(word in told for word in ("cores", "GB", "Python", "BLAS", "per process", "load average", "UTC"))
+    assert all(
+        word in told
+        for word in ("cores", "GB", "Python", "BLAS", "per process", "load average", "UTC")
+    )
     assert "one thread per process" in machine.sentence(machine.describe() | {"threads": 1})
     assert "2 threads per process" in machine.sentence(machine.describe() | {"threads": 2})

@@ -29,17 +29,39 @@ MACHINE = {
 def point(scene, element, method, n):
     slow = {"fourier": 1e-6, "direct": 1e-5}[method] * {"P1": 1.0, "CR": 3.0}[element]
     dofs = n * n * {"P1": 1, "CR": 3}[element]
-    row = {"scene": scene, "element": element, "method": method, "status": "measured", "note": "", "n": n, "h": 1 / n}
+    row = {
+        "scene": scene,
+        "element": element,
+        "method": method,
+        "status": "measured",
+        "note": "",
+        "n": n,
+        "h": 1 / n,
+    }
     row |= {name: slow * n**2 / (3 if name in STAGES else 1) for name in TIMES}
-    row |= {f"{name}_min": 0.9 * row[name] for name in TIMES} | {f"{name}_max": 1.1 * row[name] for name in TIMES}
+    row |= {f"{name}_min": 0.9 * row[name] for name in TIMES} | {
+        f"{name}_max": 1.1 * row[name] for name in TIMES
+    }
     row |= {"dofs": dofs, "memory": 1e3 * dofs, "peak": 1e8, "difference": 1e-13, "iterations": 4}
     return row | dict.fromkeys(COUNTS, 2) | {"l2": 1 / n**2, "h1_semi": 1 / n, "h1": 1 / n}
 
 
 def rival(name, n, ratio, status="solved", ours="fourier"):
-    row = {"scene": "paper", "element": "P1", "n": n, "rival": name, "status": status, "note": "", "claimed": 1}
+    row = {
+        "scene": "paper",
+        "element": "P1",
+        "n": n,
+        "rival": name,
+        "status": status,
+        "note": "",
+        "claimed": 1,
+    }
     row |= {"ours": ours, "auto": 1}
-    return row | {"ratio": ratio, "ratio_min": ratio and 0.9 * ratio, "ratio_max": ratio and 1.1 * ratio}
+    return row | {
+        "ratio": ratio,
+        "ratio_min": ratio and 0.9 * ratio,
+        "ratio_max": ratio and 1.1 * ratio,
+    }
 
 
 POINTS = [
@@ -54,7 +76,9 @@ RIVALS = [rival("fast", 8, 0.5), rival("slow", 8, 20.0), rival("slow", 16, 40.0,
 RIVALS += [rival("gone", None, None, "absent", "") | {"note": "pip install gone"}]
 ERRORS = {"paper": [{"element": "P1", "n": n, "l2": 1 / n**2, "h1": 1 / n} for n in (2, 4)]}
 COARSE = {"paper": [{"element": "P1", "n": n, "l2": 1.01 / n**2, "h1": 1 / n} for n in (2, 4)]}
-SUMMARY = summary(POINTS, RIVALS, COARSE, ERRORS) | {"titles": {"fast": "Fast", "slow": "Slow & sure", "gone": "Gone"}}
+SUMMARY = summary(POINTS, RIVALS, COARSE, ERRORS) | {
+    "titles": {"fast": "Fast", "slow": "Slow & sure", "gone": "Gone"}
+}
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +92,12 @@ def text(request, report):
 
 
 def test_machine_versions_threads_and_load_are_told(text):
-    for words in ("Chip 100", "numpy 2.4.6", "one thread per process", "load average 0.25 at the start"):
+    for words in (
+        "Chip 100",
+        "numpy 2.4.6",
+        "one thread per process",
+        "load average 0.25 at the start",
+    ):
         assert words in text
 
 
@@ -87,14 +116,20 @@ def test_an_absent_rival_comes_with_its_install_line(text):
 
 def test_what_a_coarse_reference_bends_is_told(text):
     plain = text.replace(r"\,\%", " %")
-    assert "h = 1/32, bends the errors of its last level, h = 1/4, by P1 L2 +1.00 %, P1 H1 +0.00 %." in plain
+    assert (
+        "h = 1/32, bends the errors of its last level, h = 1/4, by P1 L2 +1.00 %, P1 H1 +0.00 %."
+        in plain
+    )
     assert "paper by P1 with h = 1/128" in text
 
 
 def test_the_caption_of_the_first_figure_names_the_machine_and_the_others_refer_to_it(report):
     captions = re.findall(r"\\caption\{(.*)\}\\label", report.tex())
     assert sum("load average 0.25" in caption for caption in captions) == 1
-    assert sum(r"as in Figure~\ref{fig:benchmark-error}" in caption for caption in captions) == len(captions) - 1
+    assert (
+        sum(r"as in Figure~\ref{fig:benchmark-error}" in caption for caption in captions)
+        == len(captions) - 1
+    )
     assert all(rf"\includegraphics{{benchmark_{name}.pdf}}" in report.tex() for name in FIGURES)
 
 
@@ -191,7 +226,9 @@ def test_every_figure_of_the_report_is_drawn_at_the_width_of_the_text(figure):
 def test_every_point_of_the_error_figure_bears_its_level(figure):
     axes = figure["error"].axes
     assert [ax.get_title() for ax in axes] == ["paper", "paper", "corner", "corner"]
-    assert Counter(text.get_text() for text in axes[0].texts) == Counter({"2": 4, "4": 4, "8": 4, "16": 4})
+    assert Counter(text.get_text() for text in axes[0].texts) == Counter(
+        {"2": 4, "4": 4, "8": 4, "16": 4}
+    )
     assert Counter(text.get_text() for text in axes[2].texts)["16"] == 3
 
 

@@ -25,7 +25,9 @@ def met(name="superlu", levels=(2, 4), limit=60.0):
 
 def test_a_duel_has_a_row_per_level_and_route():
     found = met()
-    assert [[(row["n"], row["ours"]) for row in rows] for rows in found] == [[(n, m) for m in METHODS] for n in (2, 4)]
+    assert [[(row["n"], row["ours"]) for row in rows] for rows in found] == [
+        [(n, m) for m in METHODS] for n in (2, 4)
+    ]
     for row in (row for rows in found for row in rows):
         assert (row["status"], row["claimed"]) == ("solved", 1)
         assert row["difference"] < 1e-12
@@ -38,14 +40,19 @@ def test_a_duel_has_a_row_per_level_and_route():
 def test_ratios_are_of_pairs():
     row = benchmark_rivals._against([1.0, 2.0, 6.0], [2.0, 1.0, 2.0], "direct", "fourier")
     assert (row["ratio_min"], row["ratio"], row["ratio_max"]) == (0.5, 2.0, 3.0)
-    assert (row["ours_min"], row["ours_seconds"], row["ours_max"], row["auto"]) == (1.0, 2.0, 2.0, 0)
+    assert (row["ours_min"], row["ours_seconds"], row["ours_max"], row["auto"]) == (
+        1.0,
+        2.0,
+        2.0,
+        0,
+    )
 
 
 def test_only_routes_that_apply_are_met():
     problem = discretize_on(delaunay(0), "P1", STATEMENT)
-    assert [row["ours"] for row in benchmark_rivals._level(rivals.RIVALS["superlu"], problem, 60.0)] == [
-        method for method in METHODS if method != "fourier"
-    ]
+    assert [
+        row["ours"] for row in benchmark_rivals._level(rivals.RIVALS["superlu"], problem, 60.0)
+    ] == [method for method in METHODS if method != "fourier"]
 
 
 def test_finer_levels_are_left_out_when_time_runs_out():
@@ -56,7 +63,9 @@ def test_finer_levels_are_left_out_when_time_runs_out():
 
 
 def test_an_absent_rival_says_how_to_install_it(monkeypatch):
-    absent = rivals.Rival("absent", "Absent", "no_such_package", "pip install no-such-package", "quadratic:osqp")
+    absent = rivals.Rival(
+        "absent", "Absent", "no_such_package", "pip install no-such-package", "quadratic:osqp"
+    )
     monkeypatch.setitem(rivals.RIVALS, "absent", absent)
     assert met("absent") == [[{"status": "absent", "note": "pip install no-such-package"}]]
 
@@ -64,7 +73,9 @@ def test_an_absent_rival_says_how_to_install_it(monkeypatch):
 def test_a_wrong_answer_is_failed_though_claimed(monkeypatch):
     from signorini.studies.rivals import active_set
 
-    monkeypatch.setattr(active_set, "superlu", lambda qp, tolerance, deadline: (np.zeros_like(qp.f), True, 1))
+    monkeypatch.setattr(
+        active_set, "superlu", lambda qp, tolerance, deadline: (np.zeros_like(qp.f), True, 1)
+    )
     row = met()[0][0]
     assert (row["status"], row["claimed"]) == ("failed", 1)
     assert row["difference"] > 0.1
@@ -115,13 +126,22 @@ def test_a_crash_is_told_and_what_came_before_is_kept():
 
 
 def fought(ratio, low, high, rival="r", n=8, status="solved", claimed=1):
-    what = {"rival": rival, "scene": "s", "element": "P1", "n": n, "ours": "direct", "status": status}
+    what = {
+        "rival": rival,
+        "scene": "s",
+        "element": "P1",
+        "n": n,
+        "ours": "direct",
+        "status": status,
+    }
     return what | {"claimed": claimed, "ratio": ratio, "ratio_min": low, "ratio_max": high}
 
 
 def test_wins_losses_and_what_is_even():
     rows = [fought(0.5, 0.4, 0.9), fought(4.0, 2.0, 5.0, n=16), fought(0.5, 0.2, 1.5, n=32)]
-    (row,) = duels([*rows, fought(9.0, 9.0, 9.0, n=64, status="failed"), fought(None, None, None, n=128)])
+    (row,) = duels(
+        [*rows, fought(9.0, 9.0, 9.0, n=64, status="failed"), fought(None, None, None, n=128)]
+    )
     assert (row["problems"], row["wins"], row["even"], row["losses"]) == (3, 1, 1, 1)
     assert math.isclose(row["ratio"], 1.0)
     assert (row["ratio_min"], row["ratio_max"]) == (0.2, 5.0)
@@ -129,8 +149,18 @@ def test_wins_losses_and_what_is_even():
 
 def test_the_fate_of_each_problem_counts_once():
     rows = [fought(2.0, 2.0, 2.0), fought(2.0, 2.0, 2.0) | {"ours": "fourier"}]
-    rows += [fought(1.0, 1.0, 1.0, n=16, status="failed"), fought(1.0, 1.0, 1.0, n=32, status="failed", claimed=0)]
-    assert verdicts(rows)["r"] == {"solved": 1, "inaccurate": 0, "failed": 2, "left out": 0, "absent": 0, "wrong": 1}
+    rows += [
+        fought(1.0, 1.0, 1.0, n=16, status="failed"),
+        fought(1.0, 1.0, 1.0, n=32, status="failed", claimed=0),
+    ]
+    assert verdicts(rows)["r"] == {
+        "solved": 1,
+        "inaccurate": 0,
+        "failed": 2,
+        "left out": 0,
+        "absent": 0,
+        "wrong": 1,
+    }
 
 
 @pytest.mark.parametrize("element", ["P1", "CR"])
@@ -142,4 +172,6 @@ def test_a_crash_of_our_own_is_not_hidden(element, monkeypatch):
 
     monkeypatch.setattr(benchmark_rivals, "solve", broken)
     with pytest.raises(ZeroDivisionError):
-        benchmark_rivals._level(rivals.RIVALS["superlu"], discretize_on(grid(4), element, STATEMENT), 60.0)
+        benchmark_rivals._level(
+            rivals.RIVALS["superlu"], discretize_on(grid(4), element, STATEMENT), 60.0
+        )

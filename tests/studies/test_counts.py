@@ -1,4 +1,6 @@
-"""Counts of work and bytes of every scene that ships, against those on record: tests/data/counts.csv."""
+"""Counts of work and bytes of every scene that ships, against those on record:
+tests/data/counts.csv.
+"""
 
 import warnings
 from pathlib import Path
@@ -21,9 +23,13 @@ ROW = {"scene": "paper", "element": "P1", "method": "direct", "products": 5, "cy
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.yaml")))
 def test_no_count_has_grown(name, element):
     recorded = [row for row in RECORD if (row["scene"], row["element"]) == (name, element)]
-    grown, shrunk = changes(recorded, count_scene(signorini.load_scene(FOLDER / f"{name}.yaml"), element))
+    grown, shrunk = changes(
+        recorded, count_scene(signorini.load_scene(FOLDER / f"{name}.yaml"), element)
+    )
     if shrunk:
-        warnings.warn(f"fewer than on record: {'; '.join(shrunk)}; to keep it so: {REMEDY}", stacklevel=1)
+        warnings.warn(
+            f"fewer than on record: {'; '.join(shrunk)}; to keep it so: {REMEDY}", stacklevel=1
+        )
     assert not grown, f"{'; '.join(grown)}; {REMEDY}"
 
 
@@ -55,4 +61,7 @@ def test_a_tenth_is_allowed(name, value, grown, shrunk):
 
 def test_a_route_that_comes_or_goes_is_told():
     assert changes([], [ROW]) == (["paper P1 direct: not in the record"], [])
-    assert changes([ROW], []) == (["paper P1 direct: recorded, but the route no longer applies"], [])
+    assert changes([ROW], []) == (
+        ["paper P1 direct: recorded, but the route no longer applies"],
+        [],
+    )

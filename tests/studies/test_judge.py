@@ -1,4 +1,6 @@
-"""The judge of the stability suite: extended precision, contact sets of its own, held against rational numbers."""
+"""The judge of the stability suite: extended precision, contact sets of its own, held against
+rational numbers.
+"""
 
 from fractions import Fraction
 from types import SimpleNamespace
@@ -24,23 +26,35 @@ extended_only = pytest.mark.skipif(EPS > 1e-18, reason="this machine's long doub
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("coefficient", [1, "where(x < y, 1e3, 2 + x)"], ids=["plain", "coefficient"])
+@pytest.mark.parametrize(
+    "coefficient", [1, "where(x < y, 1e3, 2 + x)"], ids=["plain", "coefficient"]
+)
 @pytest.mark.parametrize("mesh", [delaunay(0), grid(5, 4)], ids=["delaunay", "grid"])
 def test_the_extended_matrix_is_the_matrix(mesh, element, coefficient):
     problem = discretize_on(mesh, element, statement(coefficient=coefficient))
     A = problem.A.toarray()
     extended = extended_stiffness(mesh, element, problem.coefficient)
     assert extended.dtype == np.longdouble
-    np.testing.assert_allclose(extended.toarray().astype(float), A, rtol=0, atol=1e-14 * np.abs(A).max())
+    np.testing.assert_allclose(
+        extended.toarray().astype(float), A, rtol=0, atol=1e-14 * np.abs(A).max()
+    )
 
 
 @extended_only
-@pytest.mark.parametrize(("element", "aspect"), [("P1", 1e-6), ("CR", 1e-2), ("CR", 1e-4), ("CR", 1e-6)])
+@pytest.mark.parametrize(
+    ("element", "aspect"), [("P1", 1e-6), ("CR", 1e-2), ("CR", 1e-4), ("CR", 1e-6)]
+)
 def test_extended_precision_knows_what_double_does_not(element, aspect):
-    """The contact patch u = 1 - y / height on shaken cells pressed flat: CR in double loses aspect**-2."""
+    """The contact patch u = 1 - y / height on shaken cells pressed flat: CR in double loses
+    aspect**-2.
+    """
     mesh = labelled(pressed_flat(8, aspect, seed=0), dict(zip(SIDES, BOUNDARIES[0], strict=True)))
     problem = discretize_on(mesh, element, statement(obstacle=1))
-    truth = 1 - find_element(element).nodes(mesh, np.arange(problem.b.size))[1].astype(np.longdouble) / aspect
+    truth = (
+        1
+        - find_element(element).nodes(mesh, np.arange(problem.b.size))[1].astype(np.longdouble)
+        / aspect
+    )
     solution = solve(problem, "direct")
     found = judge(problem, solution)
     error = float(np.abs(found.u - truth).max())
@@ -51,7 +65,9 @@ def test_extended_precision_knows_what_double_does_not(element, aspect):
 
 
 def test_a_contact_set_is_that_of_the_matrix_as_it_is():
-    """Refined by another matrix, equal but for round-off, this solution fell below the obstacle by 5e-8."""
+    """Refined by another matrix, equal but for round-off, this solution fell below the obstacle by
+    5e-8.
+    """
     solution = solve(instance("stretched", "degenerate", "CR", 18).problem, "direct")
     assert solution.status == "inaccurate"
     assert solution.residual <= 1e-9
@@ -77,7 +93,9 @@ def small(element, towards=None, exponent=10.0, **data):
 
 def pressed(element):
     mesh = labelled(pressed_flat(4, 1e-4, 1), dict(zip(SIDES, BOUNDARIES[0], strict=True)))
-    return discretize_on(mesh, element, statement(**WAVES | {"f": "1e8*cos(5*x)", "g": 0, "dirichlet": 0.12}))
+    return discretize_on(
+        mesh, element, statement(**WAVES | {"f": "1e8*cos(5*x)", "g": 0, "dirichlet": 0.12})
+    )
 
 
 WAVES = DATA | {"f": "40*cos(5*x)", "obstacle": "0.1*cos(6*x)"}
@@ -88,7 +106,9 @@ RATIONAL = {
     "stiffest": lambda element: small(element, coefficient="where(x > 0.4 and y < 0.6, 1e12, 1)"),
     "soft": lambda element: small(element, coefficient="where(y < 0.3, 1e-6, 1)"),
     "pressed-flat": pressed,
-    "constant": lambda element: small(element, dirichlet="1e12 + 0.1*x", obstacle="1e12 + 0.1*cos(6*x)"),
+    "constant": lambda element: small(
+        element, dirichlet="1e12 + 0.1*x", obstacle="1e12 + 0.1*cos(6*x)"
+    ),
 }
 
 
@@ -122,10 +142,15 @@ def test_the_judge_trusts_nobody(case, element):
     rng = np.random.default_rng(0)
     for _ in range(4):
         size = problem.contact.size
-        lie = SimpleNamespace(u=rng.standard_normal(problem.b.size), active=rng.random(size) < rng.random())
+        lie = SimpleNamespace(
+            u=rng.standard_normal(problem.b.size), active=rng.random(size) < rng.random()
+        )
         found = judge(problem, lie)
         np.testing.assert_array_equal(found.active, right.active)
-        assert np.abs(found.displacement - right.displacement).max() <= 2 * right.error * right.variation
+        assert (
+            np.abs(found.displacement - right.displacement).max()
+            <= 2 * right.error * right.variation
+        )
 
 
 def test_the_judge_is_undecided_where_there_is_neither_gap_nor_force():
@@ -159,13 +184,17 @@ def test_a_wrong_side_counts_where_both_are_decided():
 
 
 def test_errors_are_relative_to_variation_and_force():
-    problem = discretize(statement(**DATA | {"dirichlet": 1000, "obstacle": "1000 + 0.1*cos(6*x)"}), "P1", 8)
+    problem = discretize(
+        statement(**DATA | {"dirichlet": 1000, "obstacle": "1000 + 0.1*cos(6*x)"}), "P1", 8
+    )
     found = judge(problem)
     variation, none = np.ptp(found.u.astype(float)), np.zeros(9, dtype=bool)
     assert found.distance(found.u.astype(float) + 1e-3) == pytest.approx(1e-3 / variation, rel=1e-9)
     lifted = found.multiplier.astype(float) + 1e-3
     largest = float(found.multiplier.max())
-    assert found.multiplier_distance(lifted, found.active) == pytest.approx(1e-3 / largest, rel=1e-9)
+    assert found.multiplier_distance(lifted, found.active) == pytest.approx(
+        1e-3 / largest, rel=1e-9
+    )
     assert found.multiplier_distance(lifted, none) == pytest.approx(1e-3 / found.acting, rel=1e-9)
 
 
@@ -175,7 +204,13 @@ def test_what_double_precision_cannot_is_told_from_what_it_can():
     flat = labelled(pressed_flat(8, 1e-8, seed=0), dict(zip(SIDES, BOUNDARIES[0], strict=True)))
     assert judge(discretize_on(flat, "CR", statement(obstacle=1))).limit > 1e-2
     constant = judge(discretize(statement(**DATA | {"dirichlet": 1e12, "obstacle": 1e12}), "P1", 8))
-    assert constant.limit == constant.stored > 1e-6 > 1e-12 > constant.multiplier_limit(constant.active)
+    assert (
+        constant.limit
+        == constant.stored
+        > 1e-6
+        > 1e-12
+        > constant.multiplier_limit(constant.active)
+    )
     graded = judge(small("P1", ["bottom"]))
     assert max(graded.limit, graded.multiplier_limit(graded.active)) < 1e-12
 
@@ -193,18 +228,24 @@ def test_elimination_is_that_of_the_matrix():
     np.testing.assert_allclose(found.block[0, 1].astype(float), block[0, 1], rtol=1e-14)
     load, kept = rng.random((4, 3)), rng.random((2, 3))
     parts, reduced = found.reduce(load.astype(np.longdouble))
-    np.testing.assert_allclose(reduced.astype(float), border.T @ np.linalg.solve(inner, load), rtol=1e-13)
+    np.testing.assert_allclose(
+        reduced.astype(float), border.T @ np.linalg.solve(inner, load), rtol=1e-13
+    )
     values = found.extend(parts, kept.astype(np.longdouble)).astype(float)
     np.testing.assert_allclose(values, np.linalg.solve(inner, load + border @ kept), rtol=1e-13)
 
 
 @extended_only
 def test_elimination_keeps_what_a_matrix_loses():
-    """A chain held to the ground by 1e-30 at one end, loaded at the other by 1: a matrix would have lost the ground."""
+    """A chain held to the ground by 1e-30 at one end, loaded at the other by 1: a matrix would have
+    lost the ground.
+    """
     n, ground = 5, np.longdouble("1e-30")
     border = np.zeros((n, 1), dtype=np.longdouble)
     border[0] = ground
-    chain = Elimination(np.arange(n - 1), np.arange(1, n), np.ones(n - 1, dtype=np.longdouble), border)
+    chain = Elimination(
+        np.arange(n - 1), np.arange(1, n), np.ones(n - 1, dtype=np.longdouble), border
+    )
     load = np.zeros((n, 1), dtype=np.longdouble)
     load[-1] = 1
     parts, _ = chain.reduce(load)

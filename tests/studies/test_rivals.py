@@ -52,8 +52,14 @@ def test_the_bound_problem_is_the_problem(element):
 
 @pytest.mark.parametrize("name", ["spsolve", "superlu"])
 def test_the_plain_active_set_method_cycles_on_degenerate_data(name):
-    """Neither gap nor force anywhere on the contact part: signs are round-off, and some of them never settle."""
-    problems = [instance("perturbed", "degenerate", element, k).problem for element in ("P1", "CR") for k in range(4)]
+    """Neither gap nor force anywhere on the contact part: signs are round-off, and some of them
+    never settle.
+    """
+    problems = [
+        instance("perturbed", "degenerate", element, k).problem
+        for element in ("P1", "CR")
+        for k in range(4)
+    ]
     answers = [RIVALS[name].solve(problem) for problem in problems]
     assert any(not answer.claimed and answer.iterations == 100 for answer in answers)
 
@@ -70,12 +76,14 @@ def test_a_rival_that_raises_gives_no_answer(problem, monkeypatch):
 
 
 def test_a_rival_that_is_absent_says_what_to_install():
-    rival = Rival("absent", "absent", "no_such_package", "pip install no-such-package", "quadratic:osqp")
+    rival = Rival(
+        "absent", "absent", "no_such_package", "pip install no-such-package", "quadratic:osqp"
+    )
     assert not rival.available()
 
 
 def test_nothing_foreign_is_imported_before_it_is_asked_for():
-    program = (
-        "import sys, signorini.studies.rivals; sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    program = "import sys, signorini.studies.rivals; sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    subprocess.run(
+        [sys.executable, "-c", program], check=True, env={"PYTHONPATH": "src", "PATH": ""}
     )
-    subprocess.run([sys.executable, "-c", program], check=True, env={"PYTHONPATH": "src", "PATH": ""})

@@ -1,4 +1,6 @@
-"""The sensitivity study: which choices meet the paper's table, what others would have concluded, and what it costs."""
+"""The sensitivity study: which choices meet the paper's table, what others would have concluded,
+and what it costs.
+"""
 
 import csv
 import re
@@ -14,7 +16,14 @@ from signorini.studies.sensitivity import combinations as study
 from signorini.studies.sensitivity import options as choices
 from signorini.studies.sensitivity.page import page
 from signorini.studies.sensitivity.solves import errors_of_diagonal
-from signorini.studies.sensitivity.unsaid import CHOICES, DIAGONALS, LOADS, PAPER, RULES, count_solves
+from signorini.studies.sensitivity.unsaid import (
+    CHOICES,
+    DIAGONALS,
+    LOADS,
+    PAPER,
+    RULES,
+    count_solves,
+)
 
 ROOT = Path(__file__).parents[2]
 SCENE = load_scene(ROOT / "config/scenes/paper.yaml")
@@ -31,7 +40,11 @@ def falling():
 @cache
 def quick():
     """All diagonals on coarse levels, against a coarse reference."""
-    return [row for diagonal in DIAGONALS for row in errors_of_diagonal(SCENE.problem, diagonal, COARSE, 64)]
+    return [
+        row
+        for diagonal in DIAGONALS
+        for row in errors_of_diagonal(SCENE.problem, diagonal, COARSE, 64)
+    ]
 
 
 @cache
@@ -52,7 +65,9 @@ def test_on_the_papers_diagonal_one_table_matches_all_errors():
     """The midpoint rule is exact, and errors have no slope; the four slopes are met as means alone."""
     found = [row for row in combined() if row["matched"] == 24]
     rules, slopes = ("exact", "midpoints"), ("mean", "fit")
-    assert options(found) == [("falling", "centroid", rule, "full", slope) for rule in rules for slope in slopes]
+    assert options(found) == [
+        ("falling", "centroid", rule, "full", slope) for rule in rules for slope in slopes
+    ]
     assert options(row for row in found if row["slopes_matched"] == 4) == [
         ("falling", "centroid", rule, "full", "mean") for rule in rules
     ]
@@ -61,14 +76,26 @@ def test_on_the_papers_diagonal_one_table_matches_all_errors():
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("diagonal", DIAGONALS[1:])
 def test_another_diagonal_misses_by_far_more_than_the_reference_can_bend(diagonal, load):
-    """An error moves by no more than the distance of two references; P1 at 1/64 is within 5e-4 of 1/512 in L2."""
-    l2 = {row["element"]: row["l2"] for row in study.where(quick(), diagonal=diagonal, load=load, n=2, rule="exact")}
-    printed = {row["element"]: float(row["value"]) for row in PUBLISHED if row["norm"] == "l2" and row["n"] == "2"}
+    """An error moves by no more than the distance of two references; P1 at 1/64 is within 5e-4 of
+    1/512 in L2.
+    """
+    l2 = {
+        row["element"]: row["l2"]
+        for row in study.where(quick(), diagonal=diagonal, load=load, n=2, rule="exact")
+    }
+    printed = {
+        row["element"]: float(row["value"])
+        for row in PUBLISHED
+        if row["norm"] == "l2" and row["n"] == "2"
+    }
     assert max(abs(l2[element] - printed[element]) for element in printed) > 0.004
 
 
 def test_what_one_changed_choice_leaves_of_the_table():
-    rows = {tuple(row[choice] for choice in ("load", "rule", "h1")): row["matched"] for row in combined()}
+    rows = {
+        tuple(row[choice] for choice in ("load", "rule", "h1")): row["matched"]
+        for row in combined()
+    }
     assert rows["centroid", "exact", "semi"] == 12  # the L2 errors
     assert rows["centroid", "centroid", "full"] == 4
     assert rows["centroid", "vertices", "full"] == 1
@@ -85,7 +112,9 @@ def test_the_ranking_is_in_part_the_load_rules_doing():
 def test_norm_rules_and_the_meaning_of_h1_decide_no_ranking():
     rankings = {}
     for row in combined_quick():
-        rankings.setdefault((row["diagonal"], row["load"]), set()).add((row["l2_smaller"], row["h1_smaller"]))
+        rankings.setdefault((row["diagonal"], row["load"]), set()).add(
+            (row["l2_smaller"], row["h1_smaller"])
+        )
     assert len(rankings) == 25
     assert all(len(found) == 1 for found in rankings.values())
 
@@ -103,14 +132,18 @@ def test_ratios_are_of_the_errors():
     row = study.where(study.ratios(falling()), load="centroid", rule="exact", n=2)[0]
     assert row["l2"] == pytest.approx(0.14182150 / 0.10075495, rel=1e-6)
     base = study.where(combined(), **PAPER)[0]
-    found = [row["l2"] for row in study.where(study.ratios(falling()), load="centroid", rule="exact")]
+    found = [
+        row["l2"] for row in study.where(study.ratios(falling()), load="centroid", rule="exact")
+    ]
     product = 1.0
     for ratio in found:
         product *= ratio
     assert base["l2_ratio"] == pytest.approx(product ** (1 / 6), rel=1e-12)
 
 
-@pytest.mark.parametrize(("ratio", "word"), [(0.99, "CR"), (1.01, "P1"), (1.0, "tie"), (1.0 - 1e-12, "tie")])
+@pytest.mark.parametrize(
+    ("ratio", "word"), [(0.99, "CR"), (1.01, "P1"), (1.0, "tie"), (1.0 - 1e-12, "tie")]
+)
 def test_a_tie_is_one_to_round_off(ratio, word):
     assert study.smaller(ratio) == word
 
@@ -119,15 +152,21 @@ def test_one_at_a_time():
     rows = study.one_at_a_time(combined_quick())
     changed = [[choice for choice in CHOICES if row[choice] != PAPER[choice]] for row in rows]
     assert changed[0] == []
-    assert [names[0] for names in changed[1:]] == [c for c, found in CHOICES.items() for _ in found[1:]]
+    assert [names[0] for names in changed[1:]] == [
+        c for c, found in CHOICES.items() for _ in found[1:]
+    ]
     assert all(len(names) == 1 for names in changed[1:])
 
 
 def test_combinations_share_solves(monkeypatch):
-    """One per load, element and level, and a reference per load: whatever the norm rules and meanings."""
+    """One per load, element and level, and a reference per load: whatever the norm rules and
+    meanings.
+    """
     solved = []
     solve = choices.solve
-    monkeypatch.setattr(choices, "solve", lambda problem: solved.append(problem.b.size) or solve(problem))
+    monkeypatch.setattr(
+        choices, "solve", lambda problem: solved.append(problem.b.size) or solve(problem)
+    )
     rows = errors_of_diagonal(SCENE.problem, "criss-cross", (2, 4), 8)
     assert len(solved) == len(LOADS) * (2 * 2 + 1)
     assert count_solves(rows) == len(solved)
@@ -156,7 +195,10 @@ def test_the_page_says_what_was_found():
         "All 24 errors come out under 4 of them: diagonal falling, load by centroid, norms exact or by midpoints"
         in text
     )
-    assert "CF has the smaller $L^2$ error at $N$ = 2 and NCF has the smaller $L^2$ error at $N$ = 4, 8, 16, 32" in text
+    assert (
+        "CF has the smaller $L^2$ error at $N$ = 2 and NCF has the smaller $L^2$ error at $N$ = 4, 8, 16, 32"
+        in text
+    )
     assert "| load: exact | NNNNNN | 0 | 0 | 48 % | 1.9, 2.0 | 1.0, 1.0 |" in text
     assert all(f"]({name}.png)" in text for name in ("sensitivity_matches", "sensitivity_ratios"))
 
@@ -176,7 +218,9 @@ def test_a_page_in_latex_and_in_markdown():
         Table("t-u", "T", ("x", "y"), [["p", "1"]]),
     ]
     latex, markdown = to_latex("A_B", blocks), to_markdown("A_B", blocks)
-    assert latex.startswith("\\section{A\\_B}\n50 \\% of $a_1$, see \\autoref{b_c} and \\autoref{t-u}.\n")
+    assert latex.startswith(
+        "\\section{A\\_B}\n50 \\% of $a_1$, see \\autoref{b_c} and \\autoref{t-u}.\n"
+    )
     assert "\\includegraphics{b_c.pdf}\n\\caption{A \\& B}\n\\label{b_c}" in latex
     assert "\\midrule\np & 1 \\\\\n\\bottomrule" in latex
     assert markdown.startswith("# A_B\n\n50 % of $a_1$, see Figure 1 and Table 1.\n")
@@ -191,7 +235,10 @@ def test_the_figures_show_the_rows(tmp_path):
 
     write_csv(tmp_path / "a.csv", study.where(combined(), slope="mean"))
     write_csv(tmp_path / "b.csv", study.where(study.ratios(quick()), rule="exact"))
-    matches, ratios = draw_matches(read_csv(tmp_path / "a.csv")), draw_ratios(read_csv(tmp_path / "b.csv"))
+    matches, ratios = (
+        draw_matches(read_csv(tmp_path / "a.csv")),
+        draw_ratios(read_csv(tmp_path / "b.csv")),
+    )
     assert matches.get_figwidth() == ratios.get_figwidth() == TEXT_WIDTH
     titles = [axes.get_title() for axes in matches.axes if axes.get_title()]
     assert titles == ["norms exact or by midpoints", "norms by centroid", "norms by vertices"]
@@ -216,5 +263,8 @@ def test_a_png_of_few_colours_keeps_the_frequent_ones(tmp_path):
     every, few = (Image.open(tmp_path / name).convert("RGB") for name in ("all.png", "few.png"))
     assert every.size == few.size
     assert len(every.getcolors()) > 8
-    assert [colour for _, colour in sorted(few.getcolors())[-2:]] == [(0x12, 0x34, 0x56), (255, 255, 255)]
+    assert [colour for _, colour in sorted(few.getcolors())[-2:]] == [
+        (0x12, 0x34, 0x56),
+        (255, 255, 255),
+    ]
     assert len(few.getcolors()) == 8

@@ -27,7 +27,9 @@ from signorini.studies.stability.problems import LOADS, instance
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_generated_problem_can_be_made_again(family, load):
     for seed, element in enumerate(ELEMENTS):
-        one, other, next_one = (instance(family, load, element, k).problem for k in (seed, seed, seed + 2))
+        one, other, next_one = (
+            instance(family, load, element, k).problem for k in (seed, seed, seed + 2)
+        )
         np.testing.assert_array_equal(one.b, other.b)
         np.testing.assert_array_equal(one.lower, other.lower)
         assert one.contact.size
@@ -42,12 +44,19 @@ def test_the_families_are_what_their_names_say():
         cosines = [-(s * t).sum(axis=0) / np.hypot(*s) / np.hypot(*t) for s, t in pairs]
         return np.degrees(np.arccos(np.min(cosines)))
 
-    made = {family: [instance(family, "white", "P1", seed) for seed in range(25)] for family in FAMILIES}
-    assert all(largest_angle(i.problem.mesh) <= 90 + 1e-6 for i in made["right-angled"] + made["rising"])
+    made = {
+        family: [instance(family, "white", "P1", seed) for seed in range(25)] for family in FAMILIES
+    }
+    assert all(
+        largest_angle(i.problem.mesh) <= 90 + 1e-6 for i in made["right-angled"] + made["rising"]
+    )
     assert all(largest_angle(i.problem.mesh) > 150 for i in made["needles"])
     assert min(i.aspect for i in made["stretched"]) < 1e-5
     assert max(i.aspect for i in made["stretched"]) > 1e-1
-    graded = [np.concatenate([np.diff(np.unique(axis)) for axis in i.problem.mesh.p]) for i in made["graded"]]
+    graded = [
+        np.concatenate([np.diff(np.unique(axis)) for axis in i.problem.mesh.p])
+        for i in made["graded"]
+    ]
     assert max(steps.max() / steps.min() for steps in graded) > 1e10
     assert {family for family in FAMILIES if made[family][0].problem.coefficient is not None} == {
         "inclusions",
@@ -58,8 +67,13 @@ def test_the_families_are_what_their_names_say():
     assert max(values.max() for values in stiff) > 1e10
     assert min(values.min() for values in stiff) < 1e-4
     constant = [instance("delaunay", "constant", "P1", seed).problem for seed in range(25)]
-    assert max(np.abs(p.lower).max() / np.ptp(np.r_[p.lower, p.fixed_values]) for p in constant) > 1e9
-    scales = [np.abs(instance("delaunay", load, "P1", 0).problem.b).max() for load in ("tiny", "smooth", "huge")]
+    assert (
+        max(np.abs(p.lower).max() / np.ptp(np.r_[p.lower, p.fixed_values]) for p in constant) > 1e9
+    )
+    scales = [
+        np.abs(instance("delaunay", load, "P1", 0).problem.b).max()
+        for load in ("tiny", "smooth", "huge")
+    ]
     assert scales[0] < 1e-150 < 1e-10 < scales[1] < 1e10 < 1e150 < scales[2]
 
 
@@ -72,9 +86,28 @@ def test_a_rival_without_end_is_ended():
 
 
 def rows(solver="ours", **values):
-    base = {"family": "needles", "load": "white", "element": "CR", "solver": solver, "claimed": 1, "residual": 1e-16}
-    base |= {"seconds": 0.01, "iterations": 2, "status": "solved", "accuracy": 1e-15, "error": 1e-15}
-    base |= {"multiplier_accuracy": 1e-15, "multiplier_error": 1e-15, "wrong_side": 0, "undecided": 0, "needless": 0}
+    base = {
+        "family": "needles",
+        "load": "white",
+        "element": "CR",
+        "solver": solver,
+        "claimed": 1,
+        "residual": 1e-16,
+    }
+    base |= {
+        "seconds": 0.01,
+        "iterations": 2,
+        "status": "solved",
+        "accuracy": 1e-15,
+        "error": 1e-15,
+    }
+    base |= {
+        "multiplier_accuracy": 1e-15,
+        "multiplier_error": 1e-15,
+        "wrong_side": 0,
+        "undecided": 0,
+        "needless": 0,
+    }
     return (
         base
         | {
@@ -89,12 +122,22 @@ def rows(solver="ours", **values):
 
 
 def refused(solver="ours/direct", **values):
-    empty = dict.fromkeys(("accuracy", "multiplier_accuracy", "error", "multiplier_error", "wrong_side", "undecided"))
-    return rows(solver, claimed=0, status="refused", residual=np.inf, needless=None, **empty | values)
+    empty = dict.fromkeys(
+        ("accuracy", "multiplier_accuracy", "error", "multiplier_error", "wrong_side", "undecided")
+    )
+    return rows(
+        solver, claimed=0, status="refused", residual=np.inf, needless=None, **empty | values
+    )
 
 
 def test_success_is_claimed_and_true():
-    found = [rows(), rows(residual=1e-8), rows(residual=1e-3), rows(claimed=0), rows(residual=np.inf, claimed=0)]
+    found = [
+        rows(),
+        rows(residual=1e-8),
+        rows(residual=1e-3),
+        rows(claimed=0),
+        rows(residual=np.inf, claimed=0),
+    ]
     (row,) = stability_success.summary(found, time_limit=1.0)
     assert (row["problems"], row["solved_1e-06"], row["solved_1e-09"]) == (5, 0.4, 0.2)
     assert (row["wrong"], row["unclaimed"]) == (1, 1)
@@ -116,13 +159,21 @@ def test_a_status_better_than_the_error_is_wrong():
         rows("ours/direct", multiplier_error=2e-10),
         rows("ours/direct", wrong_side=2),
         rows("ours/direct", status="inaccurate", error=1e-4, accuracy=1e-3, limit=1e-4),
-        rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9, undecided=3, needless=1),
+        rows(
+            "ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9, undecided=3, needless=1
+        ),
         rows("ours/direct", status="inaccurate", error=1e-14, accuracy=1e-9),
         refused(limit=1.0),
         refused(limit=1e-4),
     ]
     (row,) = stability_proof.statuses(found)
-    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (10, 5, 4, 3, 1)
+    assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (
+        10,
+        5,
+        4,
+        3,
+        1,
+    )
     assert (row["refused"], row["unneeded"]) == (2, 2)
     assert (row["wrong_side"], row["undecided"], row["needless"]) == (2, 3, 1)
     assert row["solved_multiplier_error"] == 2e-10
@@ -139,7 +190,12 @@ def test_a_status_better_than_the_error_is_wrong():
         (rows(status="inaccurate", multiplier_accuracy=1e-9), False),
         (rows(status="inaccurate", multiplier_accuracy=1e-9, multiplier_limit=1e-12), True),
         (rows(status="inaccurate", accuracy=1e-9, limit=1e-12, residual=1e-8), False),
-        (rows(status="inaccurate", accuracy=1e-9, limit=1e-7, residual=1e-8, rounded_residual=1e-8), True),
+        (
+            rows(
+                status="inaccurate", accuracy=1e-9, limit=1e-7, residual=1e-8, rounded_residual=1e-8
+            ),
+            True,
+        ),
         (rows(status="inaccurate", accuracy=1e-9, limit=np.nan), False),
         (refused(limit=1e-3), False),
         (refused(limit=0.1), True),
@@ -172,13 +228,22 @@ def test_an_estimate_is_within_a_tenth_and_a_thousand(which, accuracy, error, ri
     assert stability_proof.estimated(row, which) is right
     (found,) = stability_proof.estimates([row, refused()])
     other = "multiplier_" if not which else ""
-    assert (found[f"{which}missed"], found[f"{other}missed"], found["answers"]) == (int(not right), 0, 1)
+    assert (found[f"{which}missed"], found[f"{other}missed"], found["answers"]) == (
+        int(not right),
+        0,
+        1,
+    )
 
 
 def test_estimates_are_those_of_the_answers():
-    found = [rows("ours/direct", accuracy=a, error=e) for a, e in ((1e-9, 1e-10), (1e-9, 1e-9), (1e-9, 1e-8))]
+    found = [
+        rows("ours/direct", accuracy=a, error=e)
+        for a, e in ((1e-9, 1e-10), (1e-9, 1e-9), (1e-9, 1e-8))
+    ]
     (row,) = stability_proof.estimates(found)
-    assert (row["least"], row["median"], row["most"], row["missed"]) == pytest.approx((0.1, 1, 10, 0))
+    assert (row["least"], row["median"], row["most"], row["missed"]) == pytest.approx(
+        (0.1, 1, 10, 0)
+    )
     assert error_pairs(found)["u"][0] == (1e-10, 1e-9, True)
 
 
@@ -194,7 +259,12 @@ def test_a_solve_is_held_against_the_judge():
             multiplier=1.001 * right.multiplier,
             active=flipped,
             undecided=undecided,
-            **{"status": "solved", "iterations": 1, "accuracy": 1e-12, "multiplier_accuracy": 1e-12},
+            **{
+                "status": "solved",
+                "iterations": 1,
+                "accuracy": 1e-12,
+                "multiplier_accuracy": 1e-12,
+            },
         )
         row = stability_proof.proof(problem, lie, "", truth)
         assert row["error"] == pytest.approx(1e-6, rel=1e-6)
@@ -203,12 +273,21 @@ def test_a_solve_is_held_against_the_judge():
         assert row["multiplier_floor"] >= row["floor"] == 4 * np.finfo(float).eps
         assert row["rounded_residual"] <= 1e-15
     row = stability_proof.proof(problem, None, "no digit: too stretched", truth)
-    assert (row["claimed"], row["status"], row["refused"]) == (False, "refused", "no digit: too stretched")
+    assert (row["claimed"], row["status"], row["refused"]) == (
+        False,
+        "refused",
+        "no digit: too stretched",
+    )
 
 
 def test_a_family_is_solved_by_every_route_that_applies():
     found = stability_proof.proofs(instance("right-angled", "smooth", "P1", 0).problem)
-    assert [row["solver"] for row in found] == ["ours", "ours/fourier", "ours/direct", "ours/multigrid"]
+    assert [row["solver"] for row in found] == [
+        "ours",
+        "ours/fourier",
+        "ours/direct",
+        "ours/multigrid",
+    ]
     assert all(row["error"] <= 1e-14 for row in found)
     assert all(row["multiplier_error"] <= 1e-13 for row in found)
     assert all(row["wrong_side"] == 0 for row in found)
@@ -218,7 +297,10 @@ def test_a_claim_that_is_not_met_says_so():
     extremes = {
         "scaling": [{"power": 900, "different": 1}],
         "sizes": [{"value": 1e9, "change": 1e-3}],
-        "offsets": [{"value": 1e4, "change": 1.0, "refused": ""}, {"value": 1e14, "change": None, "refused": "no"}],
+        "offsets": [
+            {"value": 1e4, "change": 1.0, "refused": ""},
+            {"value": 1e14, "change": None, "refused": "no"},
+        ],
         "critical-points": [{"critical_points": 9, "residual": 1.0}],
         "contact-sets": [{"active": 1, "expected": 0, "iterations": 1}],
         "walk": [{"status": "refused"}, {"status": "solved", "difference": 1.0, "condition": 1.0}],
@@ -242,15 +324,24 @@ def test_a_mesh_renumbered_is_the_same_mesh():
     mesh = delaunay(3)
     other, vertex, facet = stability_digits.renumber(mesh, np.random.default_rng(0))
     np.testing.assert_array_equal(other.p[:, vertex], mesh.p)
-    np.testing.assert_array_equal(np.sort(other.facets[:, facet], axis=0), np.sort(vertex[mesh.facets], axis=0))
+    np.testing.assert_array_equal(
+        np.sort(other.facets[:, facet], axis=0), np.sort(vertex[mesh.facets], axis=0)
+    )
     assert not np.array_equal(vertex, np.arange(vertex.size))
     for label in ("dirichlet", "neumann", "contact"):
-        np.testing.assert_array_equal(np.sort(facet[mesh.boundary_facets(label)]), other.boundary_facets(label))
+        np.testing.assert_array_equal(
+            np.sort(facet[mesh.boundary_facets(label)]), other.boundary_facets(label)
+        )
 
 
 @pytest.mark.parametrize("name", ["routes", "last-bit", "renumbered"])
 def test_variants_compute_the_same_table(name):
-    asked = {"elements": ["P1", "CR"], "levels": [2, 4], "norms": ["l2", "h1"], "truth": {"element": "P1", "n": 16}}
+    asked = {
+        "elements": ["P1", "CR"],
+        "levels": [2, 4],
+        "norms": ["l2", "h1"],
+        "truth": {"element": "P1", "n": 16},
+    }
     data = statement(load_quadrature="centroid", f="2*pi*sin(2*pi*x)")
     base = stability_digits.variant("auto", data, asked, 1)
     truth = discretize(data, "P1", 16)
@@ -267,7 +358,12 @@ def test_growth_and_crossings_are_those_of_powers():
     table = [{"element": "P1", "n": n, "condition": 3.0 * n**2} for n in levels]
     assert stability_floor.growth(table, "condition")["P1"] == pytest.approx((2, 3))
     errors = [
-        {"family": family, "element": "P1", "n": n, **dict.fromkeys(stability_floor.NORMS, value(n))}
+        {
+            "family": family,
+            "element": "P1",
+            "n": n,
+            **dict.fromkeys(stability_floor.NORMS, value(n)),
+        }
         for family, value in {"smooth": lambda n: n**-2.0, "patch": lambda n: 1e-16 * n}.items()
         for n in levels
     ]
@@ -277,12 +373,21 @@ def test_growth_and_crossings_are_those_of_powers():
 
 
 def test_figures_show_shares_and_digits():
-    found = [rows(), rows("ours/direct", error=1e-9), rows("osqp", residual=1.0), rows("osqp", load="smooth")]
+    found = [
+        rows(),
+        rows("ours/direct", error=1e-9),
+        rows("osqp", residual=1.0),
+        rows("osqp", load="smooth"),
+    ]
     assert digits_by_cell(found)["CR", "needles", "white"] == pytest.approx((9, 1))
     assert shares(found, "load")["osqp", "white"] == 0
     assert shares(found, "family")["osqp", "needles"] == 0.5
     assert list(titles(found)) == ["ours", "ours/direct", "osqp"]
-    assert [title(name) for name in ("ours", "ours/direct", "osqp")] == ["signorini", "signorini direct", "OSQP"]
+    assert [title(name) for name in ("ours", "ours/direct", "osqp")] == [
+        "signorini",
+        "signorini direct",
+        "OSQP",
+    ]
 
 
 def test_a_floor_of_zero_has_neither_growth_nor_crossing():
@@ -293,4 +398,9 @@ def test_a_floor_of_zero_has_neither_growth_nor_crossing():
     ]
     for row in stability_floor.crossings(errors):
         assert (row["floor"], row["floor_order"], row["h"]) == (0.0, None, None)
-    assert stability_floor.growth([{"element": "P1", "error": 0.0, "aspect": 1e-2}], "error", by="aspect") == {}
+    assert (
+        stability_floor.growth(
+            [{"element": "P1", "error": 0.0, "aspect": 1e-2}], "error", by="aspect"
+        )
+        == {}
+    )

@@ -31,8 +31,9 @@ slope: mean
 outputs: [errors, rates, table, figures]
 """
 
-# Written beside the results by every Python process of a run: which modules it had loaded at its end; and at once, for
-# it may be killed, which rooms of the library it asks for, under the script that started it.
+# Written beside the results by every Python process of a run: which modules it had loaded at its
+# end; and at once, for it may be killed, which rooms of the library it asks for, under the script
+# that started it.
 SPY = """\
 import atexit, json, os, sys
 from pathlib import Path
@@ -82,7 +83,9 @@ class Project:
 
     @classmethod
     def fresh(cls, folder, scene=SMALL, scenes=("small",)):
-        """The project as it is, nothing built, with a scene more and the configuration set to `scenes`."""
+        """The project as it is, nothing built, with a scene more and the configuration set to
+        `scenes`.
+        """
         left_out = shutil.ignore_patterns("__pycache__")
         folder.mkdir(parents=True, exist_ok=True)
         for part in PARTS:
@@ -121,7 +124,13 @@ class Project:
 
     def start(self, *arguments, cores="2", limits=None, **environment):
         """Start Snakemake on two cores, or without saying on how many."""
-        command = [sys.executable, "-m", "snakemake", *(["--cores", cores] if cores else []), *arguments]
+        command = [
+            sys.executable,
+            "-m",
+            "snakemake",
+            *(["--cores", cores] if cores else []),
+            *arguments,
+        ]
         return subprocess.Popen(
             command,
             cwd=self.folder,
@@ -158,17 +167,27 @@ class Project:
         """Build, with a list of every job's modules written to a folder."""
         (folder / "modules").mkdir(parents=True)
         (folder / "sitecustomize.py").write_text(SPY)
-        return self.build(*arguments, PYTHONPATH=str(folder), SPY=str(folder / "modules"), **environment)
+        return self.build(
+            *arguments, PYTHONPATH=str(folder), SPY=str(folder / "modules"), **environment
+        )
 
     def results(self):
-        """Path below results -> content of every result; no logs, benchmarks and time stamps that Snakemake keeps."""
+        """Path below results -> content of every result; no logs, benchmarks and time stamps that
+        Snakemake keeps.
+        """
         files = [path for path in (self / "results").rglob("[!.]*") if path.is_file()]
         below = {path.relative_to(self / "results"): path for path in files}
-        return {str(name): path.read_bytes() for name, path in below.items() if not RECORDS & set(name.parts)}
+        return {
+            str(name): path.read_bytes()
+            for name, path in below.items()
+            if not RECORDS & set(name.parts)
+        }
 
 
 def modules_of(folder):
-    """Script -> modules that it had loaded, of a build made by `spied_build`; Snakemake itself is `__main__.py`."""
+    """Script -> modules that it had loaded, of a build made by `spied_build`; Snakemake itself is
+    `__main__.py`.
+    """
     found = {}
     for path in sorted((folder / "modules").iterdir()):
         script, modules = json.loads(path.read_text())
@@ -177,7 +196,9 @@ def modules_of(folder):
 
 
 def rooms_of(folder):
-    """Script -> rooms of the library that its processes asked for, of a build made by `spied_build`."""
+    """Script -> rooms of the library that its processes asked for, of a build made by
+    `spied_build`.
+    """
     found = {}
     for line in (folder / "modules.txt").read_text().splitlines():
         script, room = line.split(" ")
@@ -200,18 +221,24 @@ def left_out(modules, inputs):
     own = [name for name in modules if name.partition(".")[0] == "signorini"]
     stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
     files = {stem: {f"{stem}.py", f"{stem}/__init__.py"} for stem in stems}
-    there = {stem: {file for file in names if (ROOT / file).is_file()} for stem, names in files.items()}
+    there = {
+        stem: {file for file in names if (ROOT / file).is_file()} for stem, names in files.items()
+    }
     return [stem for stem, names in there.items() if names and not names & inputs]
 
 
 def undeclared(project, folder, *arguments):
-    """Script -> rooms that its jobs asked for and did not declare, of a build made by `spied_build` with arguments."""
+    """Script -> rooms that its jobs asked for and did not declare, of a build made by `spied_build`
+    with arguments.
+    """
     run = project.build(*arguments, "--dry-run", "--forceall", "--quiet", "host")
     inputs, rooms = inputs_of_scripts(run.text), rooms_of(folder)
     return {script: left_out(rooms[script], inputs[script]) for script in rooms if script in inputs}
 
 
 def side_by_side(function, cases):
-    """Case -> what the function makes of it, two at a time: nearly all of a dry run is the start of Snakemake."""
+    """Case -> what the function makes of it, two at a time: nearly all of a dry run is the start of
+    Snakemake.
+    """
     with ThreadPoolExecutor(2) as pool:
         return dict(zip(cases, pool.map(function, cases), strict=True))

@@ -1,4 +1,6 @@
-"""What goes wrong on a machine: damaged files, wrong clocks, copies, killed processes, a full disk, no LaTeX."""
+"""What goes wrong on a machine: damaged files, wrong clocks, copies, killed processes, a full disk,
+no LaTeX.
+"""
 
 import contextlib
 import io
@@ -40,7 +42,9 @@ def flip(content):
 
 
 def another_digit(content):
-    """The last digit of a table changed, or a bit of a number in an archive, or any of what else is no text."""
+    """The last digit of a table changed, or a bit of a number in an archive, or any of what else is
+    no text.
+    """
     if zipfile.is_zipfile(io.BytesIO(content)):
         return another_number(content)
     if b"\0" in content:
@@ -50,7 +54,9 @@ def another_digit(content):
 
 
 def another_number(content):
-    """A bit changed in the last number of the entry half-way: between entries are bytes that say nothing."""
+    """A bit changed in the last number of the entry half-way: between entries are bytes that say
+    nothing.
+    """
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         entries = archive.infolist()
     end = entries[len(entries) // 2].header_offset
@@ -88,15 +94,20 @@ def test_a_damaged_file_is_noticed_by_its_reader(small, built_small, damage, dam
     assert small.results() == built_small.results()
 
 
-# Readers: a dry run tells each job's inputs and its command, which is then run on damaged inputs, without Snakemake.
+# Readers: a dry run tells each job's inputs and its command, which is then run on damaged inputs,
+# without Snakemake.
 
-JOB = re.compile(r"^(?:local)?rule (\w+):\n    input: (.*)\n(?:    .*\n)*Shell command: (.*)$", re.M)
+JOB = re.compile(
+    r"^(?:local)?rule (\w+):\n    input: (.*)\n(?:    .*\n)*Shell command: (.*)$", re.M
+)
 ASKED = {"errors.csv", "rates.csv", "effects.csv"}  # whose rows are known from the scene
 
 
 def readers(project, *targets):
     """Rule -> the results that its first job reads, and its command."""
-    text = project.build(*targets, "--dry-run", "--forceall", "--printshellcmds", "--quiet", "host").text
+    text = project.build(
+        *targets, "--dry-run", "--forceall", "--printshellcmds", "--quiet", "host"
+    ).text
     found = {}
     for rule, inputs, command in JOB.findall(text):
         results = [path for path in inputs.split(", ") if path.startswith("results/")]
@@ -109,7 +120,9 @@ def refusal(project, command):
     """What a job's command says when it refuses its inputs; nothing where it takes them."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     call = ["bash", "-o", "pipefail", "-c", command]
-    done = subprocess.run(call, cwd=project.folder, env=os.environ | {"PATH": path}, capture_output=True, text=True)
+    done = subprocess.run(
+        call, cwd=project.folder, env=os.environ | {"PATH": path}, capture_output=True, text=True
+    )
     return done.stdout if done.returncode else ""
 
 
@@ -125,7 +138,11 @@ def accepted(project, damage, chosen, *targets, sealed=False):
             if sealed:
                 write_text(path, damage(content).decode())
             said = refusal(project, command)
-            if f"error: {name}: " not in said or "delete it and rerun" not in said or "Traceback" in said:
+            if (
+                f"error: {name}: " not in said
+                or "delete it and rerun" not in said
+                or "Traceback" in said
+            ):
                 unnoticed.append((rule, name, said))
             path.write_bytes(content)
             if seal:
@@ -143,7 +160,11 @@ def test_every_reader_refuses_a_changed_digit(small):
 def macros(paper):
     """The paper's scene with all numbers of its text, which need no LaTeX."""
     paper.build("results/paper/macros.tex")
-    return paper, ("results/paper/macros.tex", "results/paper/check.txt", *(["all"] if LATEX else []))
+    return paper, (
+        "results/paper/macros.tex",
+        "results/paper/check.txt",
+        *(["all"] if LATEX else []),
+    )
 
 
 def test_every_reader_of_the_paper_refuses_a_changed_digit(macros):
@@ -154,7 +175,10 @@ def test_every_reader_of_the_paper_refuses_a_changed_digit(macros):
 def test_every_reader_asks_for_the_rows_of_the_scene(macros):
     """Of a table that is whole, but of another question."""
     project, targets = macros
-    assert accepted(project, without_last_row, lambda path: path.name in ASKED, *targets, sealed=True) == []
+    assert (
+        accepted(project, without_last_row, lambda path: path.name in ASKED, *targets, sealed=True)
+        == []
+    )
 
 
 def test_a_published_number_that_is_not_met_stops_the_build(paper):
@@ -198,7 +222,10 @@ def stamp(path, clock):
 def test_an_edit_with_a_wrong_time_stamp_starts_its_jobs(paper, path, jobs, clock):
     """As rsync, tar and cp -p leave it."""
     text = (paper / path).read_text(encoding="utf-8")
-    paper.write(path, text + "# a comment\n" if path.endswith(".py") else text.replace(",0.01,", ",0.010,", 1))
+    paper.write(
+        path,
+        text + "# a comment\n" if path.endswith(".py") else text.replace(",0.01,", ",0.010,", 1),
+    )
     stamp(paper / path, clock)
     found = paper.jobs()
     assert {rule: found.get(rule, 0) for rule in jobs} == jobs
@@ -207,7 +234,11 @@ def test_an_edit_with_a_wrong_time_stamp_starts_its_jobs(paper, path, jobs, cloc
 
 @pytest.mark.parametrize("clock", CLOCKS)
 def test_a_wrong_time_stamp_alone_starts_nothing(paper, clock):
-    for path in (*(paper / "src").rglob("*.py"), *(paper / "results").rglob("n8.npz"), paper / "paper/main.tex"):
+    for path in (
+        *(paper / "src").rglob("*.py"),
+        *(paper / "results").rglob("n8.npz"),
+        paper / "paper/main.tex",
+    ):
         stamp(path, clock)
     stamp(paper / "results/paper/reference.npz", clock)
     stamp(paper / "results/paper/errors.csv", clock)
@@ -216,8 +247,12 @@ def test_a_wrong_time_stamp_alone_starts_nothing(paper, clock):
 
 def test_a_copy_has_nothing_to_do(built_paper, tmp_path):
     """As cp -r makes it: with new time stamps, in another order."""
-    files = sorted(path for path in built_paper.folder.rglob("*") if path.is_file() and not path.is_symlink())
-    assert max(path.stat().st_size for path in files) > 2e6  # Snakemake's own limit of checksums is 1 MB
+    files = sorted(
+        path for path in built_paper.folder.rglob("*") if path.is_file() and not path.is_symlink()
+    )
+    assert (
+        max(path.stat().st_size for path in files) > 2e6
+    )  # Snakemake's own limit of checksums is 1 MB
     copy = built_paper.copy(tmp_path / "project")
     for k, path in enumerate(reversed(files)):
         when = time.time() - 1000 + 0.1 * k
@@ -236,7 +271,10 @@ def test_a_second_run_has_nothing_to_do(small):
 
 @contextlib.contextmanager
 def napping(project):
-    """A run whose job `errors` naps; gives the run and the job's process number. The job wakes up at the end."""
+    """A run whose job `errors` naps; gives the run and the job's process number.
+
+    The job wakes up at the end.
+    """
     script = (project / NAPPER).read_text()
     project.write(NAPPER, NAP + script)
     nap = project / "napping"
@@ -274,7 +312,9 @@ def test_a_killed_snakemake_is_recovered_as_the_readme_says(small, built_small):
     refused = small.run(AFTER)
     assert refused.code != 0
     assert "--unlock" in refused.text
-    wait_for((small / "results/small/errors.csv").exists)  # the orphaned job ended; nobody checked it
+    wait_for(
+        (small / "results/small/errors.csv").exists
+    )  # the orphaned job ended; nobody checked it
     small.build("--unlock")
     again = small.build(AFTER)
     assert again.jobs["errors"] == 1
@@ -304,16 +344,26 @@ def test_a_full_disk_leaves_no_part_of_a_file(fresh):
     fresh.build("results/small/reference.npz")
 
 
-def test_without_latex_all_else_is_built_and_one_line_says_what_to_install(paper, built_paper, tmp_path):
+def test_without_latex_all_else_is_built_and_one_line_says_what_to_install(
+    paper, built_paper, tmp_path
+):
     for name in ("table_5_1.tex", "figure_5_2.png", "check.txt", "paper.pdf"):
         (paper / "results/paper" / name).unlink(missing_ok=True)
     tools = tmp_path / "tools"
     tools.mkdir()
-    for tool in ("bash", "tee", "which"):  # the last for the plugin for Slurm, which Snakemake loads where it is there
+    for tool in (
+        "bash",
+        "tee",
+        "which",
+    ):  # the last for the plugin for Slurm, which Snakemake loads where it is there
         (tools / tool).symlink_to(shutil.which(tool))
     run = paper.build(PATH=str(tools))
     assert said_of_latex(run) == "latexmk and pdflatex"
-    expected = {name: content for name, content in built_paper.results().items() if not name.endswith("paper.pdf")}
+    expected = {
+        name: content
+        for name, content in built_paper.results().items()
+        if not name.endswith("paper.pdf")
+    }
     assert paper.results() == expected
     assert ("paper/paper.pdf" in built_paper.results()) == LATEX
     assert said_of_latex(paper.build(PATH=str(tools))) == "latexmk and pdflatex"  # each run says so
@@ -324,4 +374,6 @@ def test_without_latex_all_else_is_built_and_one_line_says_what_to_install(paper
 def said_of_latex(run):
     """The programs that a run's one line misses."""
     (line,) = [line for line in run.text.splitlines() if "apt-get install latexmk" in line]
-    return re.fullmatch(r"results/paper/paper\.pdf: not built, for want of (.*)\. On Debian: .*", line)[1]
+    return re.fullmatch(
+        r"results/paper/paper\.pdf: not built, for want of (.*)\. On Debian: .*", line
+    )[1]

@@ -1,4 +1,6 @@
-"""`snakemake benchmark`: what it measures, that nothing runs beside a measurement, and that a killed run goes on."""
+"""`snakemake benchmark`: what it measures, that nothing runs beside a measurement, and that a
+killed run goes on.
+"""
 
 import csv
 import re
@@ -47,10 +49,16 @@ def test_every_element_route_and_level_is_measured(built):
     assert len(found) == POINTS
     assert {row["method"] for row in found} == set(METHODS)
     measured = [row for row in found if row["status"] == "measured"]
-    assert all(float(row["total_min"]) <= float(row["total"]) <= float(row["total_max"]) for row in measured)
+    assert all(
+        float(row["total_min"]) <= float(row["total"]) <= float(row["total_max"])
+        for row in measured
+    )
     assert {row["repeats"] for row in measured} == {"2"}
     assert all(float(row["difference"]) < 1e-9 for row in measured)
-    assert {row["n"]: bool(row["l2"]) for row in measured} == {"2": True, "4": False}  # reference: 8
+    assert {row["n"]: bool(row["l2"]) for row in measured} == {
+        "2": True,
+        "4": False,
+    }  # reference: 8
 
 
 def test_rivals_are_rows_or_skipped_with_their_install_line(built):
@@ -64,13 +72,22 @@ def test_rivals_are_rows_or_skipped_with_their_install_line(built):
 
 
 def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not(built):
-    files = {path.name for path in (built[0] / "results/quick/benchmark").glob("[!.]*") if path.is_file()}
+    files = {
+        path.name for path in (built[0] / "results/quick/benchmark").glob("[!.]*") if path.is_file()
+    }
     figures = {
         f"benchmark_{name}.{ending}"
         for name in ("error", "dofs", "growth", "stages", "rivals")
         for ending in ("pdf", "png")
     }
-    expected = {"benchmark.csv", "rivals.csv", "summary.json", "machine.json", "benchmark.tex", "benchmark.md"}
+    expected = {
+        "benchmark.csv",
+        "rivals.csv",
+        "summary.json",
+        "machine.json",
+        "benchmark.tex",
+        "benchmark.md",
+    }
     assert files == expected | figures
     assert not (built[0] / "results/studies").exists()
 
@@ -79,14 +96,22 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
     assert missing == {script: [] for script in missing}
-    assert missing.keys() >= {path.name for path in (project / "workflow/scripts").glob("*benchmark*.py")}
-    imports = {script: modules for script, modules in modules_of(spied).items() if "benchmark" in script}
+    assert missing.keys() >= {
+        path.name for path in (project / "workflow/scripts").glob("*benchmark*.py")
+    }
+    imports = {
+        script: modules for script, modules in modules_of(spied).items() if "benchmark" in script
+    }
     assert len(imports) == 6
-    assert {script for script in imports if "matplotlib" in imports[script]} == {"figure_benchmark.py"}
+    assert {script for script in imports if "matplotlib" in imports[script]} == {
+        "figure_benchmark.py"
+    }
 
 
 def test_rivals_are_inputs_of_their_duels(built):
-    inputs = inputs_of_scripts(built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text)
+    inputs = inputs_of_scripts(
+        built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text
+    )
     needed = {
         "src/signorini/studies/rivals/quadratic.py",
         "src/signorini/solvers/direct.py",
@@ -108,12 +133,22 @@ def test_nothing_runs_beside_a_measurement(built):
 
 
 def test_a_killed_run_goes_on_where_it_was(built, tmp_path):
-    """Each point is a file, written whole or not at all: what is lost is measured again, and no more."""
+    """Each point is a file, written whole or not at all: what is lost is measured again, and no
+    more.
+    """
     project = built[0].copy(tmp_path / "project")
     folder = project / "results/quick/benchmark"
     lost = folder / "points/small/CR/direct"
-    before = {path: path.read_bytes() for path in folder.glob("points/*/*/*/*.csv") if path.parent != lost}
-    for name in ("points/small/CR/direct/n4.csv", "benchmark.csv", "summary.json", "benchmark.tex", "benchmark.md"):
+    before = {
+        path: path.read_bytes() for path in folder.glob("points/*/*/*/*.csv") if path.parent != lost
+    }
+    for name in (
+        "points/small/CR/direct/n4.csv",
+        "benchmark.csv",
+        "summary.json",
+        "benchmark.tex",
+        "benchmark.md",
+    ):
         (folder / name).unlink()
     run = project.build(*QUICK)
     assert run.jobs["benchmark_point"] == 1
@@ -137,9 +172,17 @@ def test_a_solver_that_changes_is_measured_again_and_a_figure_is_not(built, tmp_
     ("old", "new", "message"),
     [
         ("finest: 64", "finer: 64", "config/benchmark.yaml: scenes.paper.finer: unknown key"),
-        ("finest: 64, reference: 1024", "finest: 64", "config/benchmark.yaml: scenes.paper.reference: missing"),
+        (
+            "finest: 64, reference: 1024",
+            "finest: 64",
+            "config/benchmark.yaml: scenes.paper.reference: missing",
+        ),
         ("  paper:", "  papers:", "did you mean paper?"),
-        ("seconds: 9", "seconds: soon", 'config/benchmark.yaml: limits.seconds: "soon" is not valid'),
+        (
+            "seconds: 9",
+            "seconds: soon",
+            'config/benchmark.yaml: limits.seconds: "soon" is not valid',
+        ),
     ],
 )
 def test_a_mistake_in_what_is_asked(fresh, old, new, message):

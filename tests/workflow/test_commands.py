@@ -1,4 +1,6 @@
-"""Every command of README.md, config/README.md and docs: each is run, or a quick variant of it, as `TRIED` says."""
+"""Every command of README.md, config/README.md and docs: each is run, or a quick variant of it, as
+`TRIED` says.
+"""
 
 import os
 import re
@@ -27,7 +29,9 @@ def debian(packages):
 
 
 def python_packages(wanted):
-    """The names are names; what a file requires is installed here, for these tests run in that environment."""
+    """The names are names; what a file requires is installed here, for these tests run in that
+    environment.
+    """
     if wanted.startswith("-r "):
         return f"test -f {wanted.removeprefix('-r ')}"
     assert all(NAMES.match(name) for name in wanted.split()), wanted
@@ -41,7 +45,9 @@ TRIED = {
     r"pip install (.*)": lambda command: python_packages(command.removeprefix("pip install ")),
     r"python3? -m venv (.*)": lambda command: f"{command} --without-pip --system-site-packages",
     r"pytest": lambda command: f"{command} --version",
-    r"snakemake .*--workflow-profile profiles/slurm": lambda command: f"{command} --dry-run" if SLURM else "true",
+    r"snakemake .*--workflow-profile profiles/slurm": lambda command: (
+        f"{command} --dry-run" if SLURM else "true"
+    ),
     r"snakemake --unlock": str,
     r"snakemake --cores 2": str,  # which has nothing to do in this copy
     r"snakemake (.*)": lambda command: f"{command} --dry-run",
@@ -65,13 +71,17 @@ def tried(command):
 
 
 def blocks():
-    """Page and place -> the commands of its blocks; those within its lines, if new, are a block each."""
+    """Page and place -> the commands of its blocks; those within its lines, if new, are a block
+    each.
+    """
     found, known = {}, set()
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         name = page.relative_to(ROOT).as_posix()
         shell = [match for match in BLOCK.finditer(text) if match[1] in SHELL]
-        found |= {f"{name}:{text[: match.start()].count(chr(10)) + 1}": lines(match[2]) for match in shell}
+        found |= {
+            f"{name}:{text[: match.start()].count(chr(10)) + 1}": lines(match[2]) for match in shell
+        }
         known |= {command for match in shell for command in lines(match[2])}
         inline = set(INLINE.findall(BLOCK.sub("", text).replace("\n", " "))) - known
         found |= {f"{name}: {command}": [command] for command in sorted(inline)}
@@ -128,12 +138,19 @@ def test_command(checkout, place):
 
 def test_languages():
     """A block is run here, or by another test: Python as a doctest, YAML as scenes and keys."""
-    languages = {match[1] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))}
+    languages = {
+        match[1] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))
+    }
     assert languages <= {*SHELL, "python", "yaml"}
 
 
 def test_examples():
-    command = [sys.executable, "-m", "doctest", *(page for page in PAGES if ">>>" in page.read_text(encoding="utf-8"))]
+    command = [
+        sys.executable,
+        "-m",
+        "doctest",
+        *(page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")),
+    ]
     environment = os.environ | {"PYTHONPATH": "src"}
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
@@ -145,7 +162,9 @@ def test_what_is_required_has_names(name):
     names = [match["name"] for match in found if match["name"]]
     assert names
     if name == "requirements.txt":
-        missing = [each for each in ("numpy", "scipy", "snakemake", "matplotlib") if each not in names]
+        missing = [
+            each for each in ("numpy", "scipy", "snakemake", "matplotlib") if each not in names
+        ]
         assert missing == []
         assert [each for each in names if not installed(each)] == []
 

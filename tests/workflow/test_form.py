@@ -10,11 +10,14 @@ from project import ROOT
 RULES = {
     name: body
     for path in sorted((ROOT / "workflow/rules").glob("*.smk"))
-    for name, body in re.findall(r"^rule (\w+):\n((?: .*\n|\n)+)", path.read_text(encoding="utf-8"), re.M)
+    for name, body in re.findall(
+        r"^rule (\w+):\n((?: .*\n|\n)+)", path.read_text(encoding="utf-8"), re.M
+    )
 }
 # A script that imports one of these rooms computes; the others format, draw or check.
 COMPUTING = re.compile(
-    r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line|studies\.sensitivity)\b", re.M
+    r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line|studies\.sensitivity)\b",
+    re.M,
 )
 
 
@@ -27,7 +30,9 @@ def test_rule(rule):
     assert "2>&1 | tee {log:q}" in body
     (content,) = re.findall(r"^        content=content\((.*)\),$", body, re.M)
     assert content.startswith(f'"{script}"')
-    sources = re.findall(r"^        (?:source|published)=(.*),$", body.partition("    output:")[0], re.M)
+    sources = re.findall(
+        r"^        (?:source|published)=(.*),$", body.partition("    output:")[0], re.M
+    )
     assert content.split(", ")[1:] == sources  # what else is no result
     code = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
     assert bool(COMPUTING.search(code)) == ("    benchmark:\n" in body)
@@ -57,7 +62,9 @@ def test_layout():
 def test_report(paper):
     paper.build("--report", "report.html")
     text = (paper / "report.html").read_text(encoding="utf-8")
-    assert all(name in text for name in ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png", "check.csv"))
+    assert all(
+        name in text for name in ("figure_5_1.png", "figure_5_2.png", "figure_5_3.png", "check.csv")
+    )
 
 
 def test_report_of_a_scene(small):

@@ -22,7 +22,15 @@ def test_clean_build(fresh):
 
 def test_clean_build_of_the_paper(fresh):
     fresh.ask_for("paper")
-    expected = {"mesh": 1, "reference": 1, "solve": 12, "errors": 1, "rates": 1, "table_5_1": 1, "surface": 1}
+    expected = {
+        "mesh": 1,
+        "reference": 1,
+        "solve": 12,
+        "errors": 1,
+        "rates": 1,
+        "table_5_1": 1,
+        "surface": 1,
+    }
     expected |= {"figure_5_1": 1, "figures_5_2_and_5_3": 1, "check": 1, "verify": 1}
     expected |= {"effects": 1, "macros": 1, "paper": 1} if LATEX else {}
     assert fresh.jobs() == expected
@@ -74,7 +82,10 @@ def jobs_after(built_small, tmp_path_factory):
     def edited(case):
         project = built_small.copy(tmp_path_factory.mktemp("edited") / "project")
         if case in MODULES:
-            project.write(f"src/signorini/{case}", (project / "src/signorini" / case).read_text() + "# a comment\n")
+            project.write(
+                f"src/signorini/{case}",
+                (project / "src/signorini" / case).read_text() + "# a comment\n",
+            )
         else:
             project.edit("config/scenes/small.yaml", *FIELDS[case][:2])
         return project.jobs()
@@ -95,7 +106,11 @@ def test_an_edited_scene_reruns_what_depends_on_it(jobs_after, field):
 @pytest.mark.parametrize(
     ("file", "line", "expected"),
     [
-        ("config/published/table_5_1.csv", "l2 P1 again,error,l2,P1,2,0.1,0.1,1\n", {"check", "verify"}),
+        (
+            "config/published/table_5_1.csv",
+            "l2 P1 again,error,l2,P1,2,0.1,0.1,1\n",
+            {"check", "verify"},
+        ),
         ("paper/main.tex", "% a comment\n", set()),
     ],
 )
@@ -120,15 +135,28 @@ def test_a_process_imports_only_what_it_needs(built_small, spied):
     imports = modules_of(spied / "small")
     drawing = {"figures.py"}
     assert {script for script in imports if "matplotlib" in imports[script]} == drawing
-    assert {script for script in imports if {"yaml", "jsonschema"} & imports[script]} == {"__main__.py"}
+    assert {script for script in imports if {"yaml", "jsonschema"} & imports[script]} == {
+        "__main__.py"
+    }
     assert not {"scipy", "skfem", "signorini.mesh", "signorini.solvers"} & imports["__main__.py"]
 
 
 def test_all_files_of_the_paper(built_paper):
-    names = [f"solutions/{element}/n{n}.npz" for element in ("P1", "CR") for n in (2, 4, 8, 16, 32, 64)]
+    names = [
+        f"solutions/{element}/n{n}.npz" for element in ("P1", "CR") for n in (2, 4, 8, 16, 32, 64)
+    ]
     names += [f"figure_5_{k}.{ending}" for k in (1, 2, 3) for ending in ("pdf", "png")]
-    names += ["reference.npz", "surface.npz", "errors.csv", "rates.csv", "table_5_1.tex", "table_5_1.md"]
-    names += ["check.csv", "check.txt"] + (["effects.csv", "macros.tex", "paper.pdf"] if LATEX else [])
+    names += [
+        "reference.npz",
+        "surface.npz",
+        "errors.csv",
+        "rates.csv",
+        "table_5_1.tex",
+        "table_5_1.md",
+    ]
+    names += ["check.csv", "check.txt"] + (
+        ["effects.csv", "macros.tex", "paper.pdf"] if LATEX else []
+    )
     assert without_mesh(built_paper.results()) == sorted(f"paper/{name}" for name in names)
 
 
@@ -152,7 +180,12 @@ def test_what_is_not_asked_for_is_not_built(fresh, tmp_path, all_jobs):
     assert "signorini.solvers.direct" in imports["solve.py"]
     assert not left_out(imports["solve.py"], inputs_of_scripts(all_jobs["small"].text)["solve.py"])
     names = [f"bare/solutions/{element}/n{n}.npz" for element in ("CR", "P1") for n in (2, 4)]
-    names += ["lean/errors.csv", "lean/reference.npz", "lean/solutions/P1/n2.npz", "lean/solutions/P1/n4.npz"]
+    names += [
+        "lean/errors.csv",
+        "lean/reference.npz",
+        "lean/solutions/P1/n2.npz",
+        "lean/solutions/P1/n4.npz",
+    ]
     results = fresh.results()
     assert without_mesh(results) == names
     header, row, *_ = results["lean/errors.csv"].decode().splitlines()
@@ -168,7 +201,9 @@ def test_scenes_share_a_mesh_and_no_more(small):
 
 def test_the_paper_without_its_figures_is_not_checked_or_typeset(fresh):
     fresh.ask_for("paper")
-    fresh.edit("config/scenes/paper.yaml", "outputs: [errors, rates, table, figures]", "outputs: [errors]")
+    fresh.edit(
+        "config/scenes/paper.yaml", "outputs: [errors, rates, table, figures]", "outputs: [errors]"
+    )
     assert fresh.jobs() == {"mesh": 1, "reference": 1, "solve": 12, "errors": 1}
 
 
@@ -245,7 +280,9 @@ def test_a_mesh_file_and_the_code_that_reads_it_are_inputs(fresh, tmp_path):
     fresh.ask_for("gasket")
     target = "results/gasket/solutions/P1/n1.npz"
     fresh.spied_build(tmp_path / "spied", target)
-    inputs = inputs_of_scripts(fresh.build(target, "--dry-run", "--forceall", "--quiet", "host").text)
+    inputs = inputs_of_scripts(
+        fresh.build(target, "--dry-run", "--forceall", "--quiet", "host").text
+    )
     imports = modules_of(tmp_path / "spied")
     assert "meshio" in imports["-c"]  # the process that reads the file, started by mesh.py
     assert left_out(imports["-c"] | imports["mesh.py"], inputs["mesh.py"]) == []

@@ -1,7 +1,9 @@
-"""What a job can load is among its inputs, so that an edit of any of it starts the job again: scripts of all studies.
+"""What a job can load is among its inputs, so that an edit of any of it starts the job again:
+scripts of all studies.
 
-Found by a parser, as an oracle of the rules' own search by patterns; what jobs do load is watched by the tests that
-build: `test_jobs`, `test_benchmark_run`, `test_sensitivity_jobs`, `test_stability_suite`.
+Found by a parser, as an oracle of the rules' own search by patterns; what jobs do load is watched
+by the tests that build: `test_jobs`, `test_benchmark_run`, `test_sensitivity_jobs`,
+`test_stability_suite`.
 """
 
 import ast
@@ -11,9 +13,13 @@ from itertools import accumulate
 import pytest
 from project import ROOT, Project, inputs_of_scripts
 
-SCRIPTS = sorted(path.name for path in (ROOT / "workflow/scripts").glob("*.py") if path.name != "stage.py")
+SCRIPTS = sorted(
+    path.name for path in (ROOT / "workflow/scripts").glob("*.py") if path.name != "stage.py"
+)
 FILES = sorted((ROOT / "src/signorini").rglob("*.py"))
-PACKAGE = ROOT / "src/signorini/__init__.py"  # composes names for users: `signorini.solve`; see below
+PACKAGE = (
+    ROOT / "src/signorini/__init__.py"
+)  # composes names for users: `signorini.solve`; see below
 
 
 @pytest.fixture(scope="module")
@@ -23,12 +29,16 @@ def declared(tmp_path_factory):
     project.ask_for("paper", "small")
     files = ["results/paper/paper.pdf", "results/paper/vtu/P1.vtu"]
     targets = [*files, "all", "all_scenes", "benchmark", "sensitivity", "stability"]
-    return inputs_of_scripts(project.build(*targets, "--dry-run", "--forceall", "--quiet", "host").text)
+    return inputs_of_scripts(
+        project.build(*targets, "--dry-run", "--forceall", "--quiet", "host").text
+    )
 
 
 @cache
 def named(path):
-    """Files of the library that a file names: in import statements wherever they stand, and in text."""
+    """Files of the library that a file names: in import statements wherever they stand, and in
+    text.
+    """
     names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -49,7 +59,9 @@ def executed(name):
         return []
     root = ROOT / ("workflow/scripts" if parts[0] == "stage" else "src")
     stems = [root / stem for stem in accumulate(parts, "{}/{}".format)]
-    files = [file for stem in stems for file in (stem / "__init__.py", stem.with_name(f"{stem.name}.py"))]
+    files = [
+        file for stem in stems for file in (stem / "__init__.py", stem.with_name(f"{stem.name}.py"))
+    ]
     return [file for file in files if file.is_file()]
 
 
@@ -70,18 +82,29 @@ def test_what_a_script_can_load_is_among_its_inputs(declared, script):
 
 
 @pytest.mark.parametrize(
-    "path", [path for path in FILES if path != PACKAGE], ids=lambda path: str(path.relative_to(PACKAGE.parent))
+    "path",
+    [path for path in FILES if path != PACKAGE],
+    ids=lambda path: str(path.relative_to(PACKAGE.parent)),
 )
 def test_a_module_is_named_in_full(path):
-    """Composed names would be found by no search: `import_module` takes a name, or a variable that holds one."""
+    """Composed names would be found by no search: `import_module` takes a name, or a variable that
+    holds one.
+    """
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in ("import_module", "__import__"):
+        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in (
+            "import_module",
+            "__import__",
+        ):
             parts = (ast.JoinedStr, ast.BinOp, ast.Call)
-            assert not any(isinstance(part, parts) for part in ast.walk(node.args[0])), ast.unparse(node)
+            assert not any(isinstance(part, parts) for part in ast.walk(node.args[0])), ast.unparse(
+                node
+            )
 
 
 def test_rivals_are_inputs_of_their_study(declared):
-    adapters = {f"src/signorini/studies/rivals/{name}.py" for name in ("active_set", "bounded", "quadratic")}
+    adapters = {
+        f"src/signorini/studies/rivals/{name}.py" for name in ("active_set", "bounded", "quadratic")
+    }
     assert adapters <= declared["stability_success.py"]
     assert adapters <= declared["benchmark_rival.py"]
     assert not adapters & declared["benchmark_point.py"]

@@ -19,7 +19,9 @@ truth: {kind: reference, n: 8}
 @pytest.fixture
 def project(tmp_path):
     project = Project.fresh(tmp_path / "project")
-    shutil.copy(ROOT / "tests/data/groups_named_as_labels_41.msh", project / "config/meshes/labels.msh")
+    shutil.copy(
+        ROOT / "tests/data/groups_named_as_labels_41.msh", project / "config/meshes/labels.msh"
+    )
     return project
 
 
@@ -43,4 +45,7 @@ def test_a_group_named_contact_is_no_formula(project):
     project.write("config/scenes/small.yaml", SCENE.replace("BOUNDARY", boundary))
     run = project.run()
     assert len(run.errors) == 1, run.text
-    assert 'small.yaml: boundary.dirichlet: "dirichlt" is no label, but other values are; did you' in run.errors[0]
+    assert (
+        'small.yaml: boundary.dirichlet: "dirichlt" is no label, but other values are; did you'
+        in run.errors[0]
+    )

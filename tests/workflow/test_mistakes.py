@@ -1,4 +1,6 @@
-"""A user's mistake: one line that names the place, the value and the remedy, before anything is computed."""
+"""A user's mistake: one line that names the place, the value and the remedy, before anything is
+computed.
+"""
 
 import os
 import subprocess
@@ -17,11 +19,20 @@ NAME = "use 1 to 64 letters, digits, '-' and '_'"
 CONFIGURATIONS = {
     "unknown key": ("scene: [small]\n", "config.yaml: scene: unknown key; did you mean scenes?"),
     "malformed": ("scenes: [small\n", "config.yaml: line 2, column 1: expected ',' or ']'"),
-    "key twice": ("scenes: [small]\nscenes: [paper]\n", "config.yaml: line 2, column 1: duplicate key 'scenes'"),
+    "key twice": (
+        "scenes: [small]\nscenes: [paper]\n",
+        "config.yaml: line 2, column 1: duplicate key 'scenes'",
+    ),
     "empty": ("", "config.yaml: expected 'key: value' lines"),
     "scene twice": ("scenes: [small, small]\n", "list each entry once"),
-    "misspelt scene": ("scenes: [smal]\n", "there is no config/scenes/smal.yaml; did you mean small?"),
-    "scene above": ("scenes: [../../x]\n", f'config.yaml: scenes.0: "../../x" is not valid; {NAME}'),
+    "misspelt scene": (
+        "scenes: [smal]\n",
+        "there is no config/scenes/smal.yaml; did you mean small?",
+    ),
+    "scene above": (
+        "scenes: [../../x]\n",
+        f'config.yaml: scenes.0: "../../x" is not valid; {NAME}',
+    ),
     "scene from the root": ("scenes: [/etc/x]\n", f'"/etc/x" is not valid; {NAME}'),
     "scene with a command": ("scenes: ['a;touch P']\n", f'"a;touch P" is not valid; {NAME}'),
     "scene without name": ("scenes: ['']\n", f'"" is not valid; {NAME}'),
@@ -33,14 +44,38 @@ CONFIGURATIONS = {
 # Mistake -> what is replaced in the scene, by what, and what the line says.
 SCENES = {
     "unknown field": ("norms:", "norm:", "small.yaml: norm: unknown key; did you mean norms?"),
-    "unknown element": ("[P1, CR]", "[P1, RC]", 'small.yaml: elements.1: "RC" is not valid; did you mean CR?'),
-    "level that does not nest": ("[2, 4]", "[3, 4]", "levels: 3 does not nest in the reference, truth.n = 16"),
-    "level above the reference": ("[2, 4]", "[2, 32]", "levels: 32 is finer than the reference, truth.n = 16; raise"),
+    "unknown element": (
+        "[P1, CR]",
+        "[P1, RC]",
+        'small.yaml: elements.1: "RC" is not valid; did you mean CR?',
+    ),
+    "level that does not nest": (
+        "[2, 4]",
+        "[3, 4]",
+        "levels: 3 does not nest in the reference, truth.n = 16",
+    ),
+    "level above the reference": (
+        "[2, 4]",
+        "[2, 32]",
+        "levels: 32 is finer than the reference, truth.n = 16; raise",
+    ),
     "no levels": ("[2, 4]", "[]", "small.yaml: levels: [] is not valid; needs at least 1 entry"),
     "malformed scene": ("[2, 4]", "[2, 4", "small.yaml: line 8, column 6: expected ',' or ']'"),
-    "field twice": ("norms:", "levels: [2]\nnorms:", "small.yaml: line 9, column 1: duplicate key 'levels'"),
-    "infinite": ("{kind: rectangle", "{size: [.inf, 1], kind: rectangle", 'domain.size.0: ".inf" is not valid'),
-    "not a number": ("{kind: rectangle", "{size: [.nan, 1], kind: rectangle", 'domain.size.0: ".nan" is not valid'),
+    "field twice": (
+        "norms:",
+        "levels: [2]\nnorms:",
+        "small.yaml: line 9, column 1: duplicate key 'levels'",
+    ),
+    "infinite": (
+        "{kind: rectangle",
+        "{size: [.inf, 1], kind: rectangle",
+        'domain.size.0: ".inf" is not valid',
+    ),
+    "not a number": (
+        "{kind: rectangle",
+        "{size: [.nan, 1], kind: rectangle",
+        'domain.size.0: ".nan" is not valid',
+    ),
 }
 
 # More of them, which the library alone shows.
@@ -55,11 +90,23 @@ FIELDS = {
     "falling levels": ("[2, 4]", "[4, 2]", "levels: [4, 2] is not increasing"),
     "broken level": ("[2, 4]", "[2.0, 4]", "levels.0: 2.0 is not valid; expected a whole number"),
     "broken reference": ("n: 16", "n: 16.0", "truth.n: 16.0 is not valid; expected a whole number"),
-    "overflow": ("f: 2*pi*sin(2*pi*x)", "f: 1e400", "line 4, column 11: number 1e400 is out of range"),
+    "overflow": (
+        "f: 2*pi*sin(2*pi*x)",
+        "f: 1e400",
+        "line 4, column 11: number 1e400 is out of range",
+    ),
     "infinite load": ("2*pi*sin(2*pi*x)", ".inf", "data.f: "),
-    "YAML tag": ("n: 16", "n: !!int 16", "line 8, column 29: tags (tag:yaml.org,2002:int) are not supported; drop it"),
+    "YAML tag": (
+        "n: 16",
+        "n: !!int 16",
+        "line 8, column 29: tags (tag:yaml.org,2002:int) are not supported; drop it",
+    ),
     "YAML alias": ("[2, 4]", "&a [2, *a]", "aliases (*name) are not supported; repeat the value"),
-    "no truth": ("{kind: reference, n: 16}", "{kind: none}", "outputs: errors needs a truth to compare with; set"),
+    "no truth": (
+        "{kind: reference, n: 16}",
+        "{kind: none}",
+        "outputs: errors needs a truth to compare with; set",
+    ),
 }
 
 
@@ -124,7 +171,11 @@ def test_a_mesh_file_out_of_the_tree(fresh, path):
     (fresh.folder.parent / "secret.msh").write_text("mine")
     (fresh / "config/scenes/link.msh").symlink_to("../../../secret.msh")
     fresh.edit(SCENE, "{kind: rectangle}", f"{{kind: mesh, file: {path}}}")
-    fresh.edit(SCENE, "{top: dirichlet, bottom: contact, left: neumann, right: neumann}", "{rim: dirichlet}")
+    fresh.edit(
+        SCENE,
+        "{top: dirichlet, bottom: contact, left: neumann, right: neumann}",
+        "{rim: dirichlet}",
+    )
     with pytest.raises(SignoriniError) as caught:
         load_scene(fresh / SCENE)
     run = fresh.run()
@@ -169,7 +220,9 @@ def test_mistake_on_the_command_line(typed, text):
 def test_mistake_in_another_configuration_file(fresh):
     fresh.write("other.yaml", "quick: maybe\n")
     run = fresh.run("--dry-run", "--configfile", "other.yaml")
-    assert run.errors == ['error: --configfile: quick: "maybe" is not valid; expected true or false'], run.text
+    assert run.errors == [
+        'error: --configfile: quick: "maybe" is not valid; expected true or false'
+    ], run.text
 
 
 @pytest.mark.parametrize("value", ["true", "True", "false"])
@@ -183,8 +236,23 @@ def test_start_in_another_folder(fresh, tmp_path, file):
     """It says where to start; with --directory it works."""
     elsewhere = tmp_path / "else where"
     elsewhere.mkdir()
-    command = [sys.executable, "-m", "snakemake", "--cores", "1", "--dry-run", "-s", f"../project/{file}"]
-    options = {"cwd": elsewhere, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "check": False}
+    command = [
+        sys.executable,
+        "-m",
+        "snakemake",
+        "--cores",
+        "1",
+        "--dry-run",
+        "-s",
+        f"../project/{file}",
+    ]
+    options = {
+        "cwd": elsewhere,
+        "stdout": subprocess.PIPE,
+        "stderr": subprocess.STDOUT,
+        "text": True,
+        "check": False,
+    }
     refused = subprocess.run(command, **options)
     assert refused.returncode != 0
     remedy = f"cd {fresh.folder}, or add --directory {fresh.folder}"
@@ -206,7 +274,9 @@ def test_results_that_cannot_be_written(fresh, kind):
             pytest.skip("root may write anywhere")
     run = fresh.run()
     assert run.code != 0
-    assert run.errors == ["error: results: not a folder that can be written; make it one, or move it away"]
+    assert run.errors == [
+        "error: results: not a folder that can be written; make it one, or move it away"
+    ]
     assert kind != "file" or (fresh / "results").read_text() == "mine"
 
 
@@ -231,7 +301,8 @@ levels: [2, 4]
 outputs: []
 """
 
-# What only a mesh or an exact solution shows: scene, what is replaced in it, by what, and what the line says.
+# What only a mesh or an exact solution shows: scene, what is replaced in it, by what, and what the
+# line says.
 MESHED = {
     "kink": (
         EXACT,
@@ -247,15 +318,30 @@ MESHED = {
     ),
     "typed load": (EXACT, "levels:", "data: {f: 1}\nlevels:", "data.f: 1 at (x, y) = "),
     "not finite": (EXACT, "1 + x*y**2", "sqrt(x - 0.1)", "truth.u: value is nan at (x, y) = "),
-    "misspelt group": (GASKET, "clamped", "clampd", "gasket.msh has no part 'clampd'; its parts: foundation"),
-    "group left out": (GASKET, ", free: neumann", "", "boundary facets of gasket.msh have no label"),
+    "misspelt group": (
+        GASKET,
+        "clamped",
+        "clampd",
+        "gasket.msh has no part 'clampd'; its parts: foundation",
+    ),
+    "group left out": (
+        GASKET,
+        ", free: neumann",
+        "",
+        "boundary facets of gasket.msh have no label",
+    ),
     "misspelt subdomain": (
         GASKET,
         "plate",
         "plte",
         "data.coefficient.plte: the mesh has no such subdomain; did you mean",
     ),
-    "crossing sides": (POLYGON, "[1, 0], [1, 1]", "[1, 1], [1, 0]", "sides 0 and 2 cross; the outline must be simple"),
+    "crossing sides": (
+        POLYGON,
+        "[1, 0], [1, 1]",
+        "[1, 1], [1, 0]",
+        "sides 0 and 2 cross; the outline must be simple",
+    ),
     "formula nowhere": (
         EXACT,
         "{bottom: contact, right: dirichlet, top: dirichlet, left: dirichlet}",
@@ -278,7 +364,9 @@ def dry(tmp_path_factory):
     def tried(case):
         scene, old, new, _ = MESHED[case]
         assert old in scene
-        project = Project.fresh(tmp_path_factory.mktemp("meshed") / "project", scene.replace(old, new))
+        project = Project.fresh(
+            tmp_path_factory.mktemp("meshed") / "project", scene.replace(old, new)
+        )
         return project, project.run("--dry-run")
 
     return side_by_side(tried, list(MESHED))
@@ -359,7 +447,9 @@ def test_a_scene_that_cannot_be_solved(fresh):
 
 @pytest.mark.parametrize("where", ["levels", "truth"])
 def test_a_level_that_no_memory_holds_is_refused_before_any_job(fresh, where):
-    """It needs 590 GB for P1, a terabyte for CR; the coarser levels are not solved first, nor is the mesh made."""
+    """It needs 590 GB for P1, a terabyte for CR; the coarser levels are not solved first, nor is
+    the mesh made.
+    """
     fresh.edit("config/scenes/small.yaml", "load_quadrature: centroid", "solver: {method: direct}")
     if where == "levels":
         fresh.edit("config/scenes/small.yaml", "levels: [2, 4]", "levels: [2, 16384]")

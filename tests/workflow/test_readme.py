@@ -1,4 +1,6 @@
-"""The scenes that config/README.md writes from scratch are built as they stand, but for their finest levels."""
+"""The scenes that config/README.md writes from scratch are built as they stand, but for their
+finest levels.
+"""
 
 import re
 
@@ -13,7 +15,9 @@ def coarsened(text):
 
 
 def test_the_scenes_of_the_readme_are_built(tmp_path):
-    blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "config/README.md").read_text(encoding="utf-8"), re.S)
+    blocks = re.findall(
+        r"```yaml\n(.*?)```", (ROOT / "config/README.md").read_text(encoding="utf-8"), re.S
+    )
     texts = [text for text in blocks if "levels" in text]
     names = [f"mine-{k}" for k, _ in enumerate(texts)]
     project = Project.fresh(tmp_path / "project", scenes=names)

@@ -6,7 +6,12 @@ import pytest
 from project import LATEX, Project, undeclared
 
 QUICK = ("sensitivity", "--config", "quick=true")
-JOBS = {"sensitivity_errors": 5, "sensitivity_combinations": 1, "figure_sensitivity": 1, "sensitivity": 1}
+JOBS = {
+    "sensitivity_errors": 5,
+    "sensitivity_combinations": 1,
+    "figure_sensitivity": 1,
+    "sensitivity": 1,
+}
 
 
 @pytest.fixture(scope="module")
@@ -24,20 +29,31 @@ def test_jobs(built):
 
 def test_files(built):
     found = {name.removeprefix("quick/sensitivity/") for name in built[0].results()}
-    pictures = {f"sensitivity_{name}.{ending}" for name in ("matches", "ratios") for ending in ("pdf", "png")}
+    pictures = {
+        f"sensitivity_{name}.{ending}"
+        for name in ("matches", "ratios")
+        for ending in ("pdf", "png")
+    }
     pages = {"sensitivity.csv", "sensitivity_ratios.csv", "sensitivity.tex", "sensitivity.md"}
     diagonals = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
     assert found == pages | pictures | {f"errors/{diagonal}.csv" for diagonal in diagonals}
 
 
 def test_a_quick_page_says_so(built):
-    assert built[0].results()["quick/sensitivity/sensitivity.md"].splitlines()[0].endswith(b"(quick variant)")
+    assert (
+        built[0]
+        .results()["quick/sensitivity/sensitivity.md"]
+        .splitlines()[0]
+        .endswith(b"(quick variant)")
+    )
 
 
 def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
-    assert missing == {path.name: [] for path in (project / "workflow/scripts").glob("*sensitivity*.py")}
+    assert missing == {
+        path.name: [] for path in (project / "workflow/scripts").glob("*sensitivity*.py")
+    }
 
 
 def test_the_full_study_is_another(built):

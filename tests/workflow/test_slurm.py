@@ -1,4 +1,6 @@
-"""profiles/slurm against a real Slurm: this machine as controller and node, from Debian's slurm-wlm and munge."""
+"""profiles/slurm against a real Slurm: this machine as controller and node, from Debian's slurm-wlm
+and munge.
+"""
 
 import os
 import shutil
@@ -13,13 +15,20 @@ PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch")
 MISSING = [program for program in PROGRAMS if not shutil.which(program)]
 
 pytestmark = [
-    pytest.mark.skipif(bool(MISSING), reason=f"no {', '.join(MISSING)}: apt-get install slurm-wlm munge"),
     pytest.mark.skipif(
-        not find_spec("snakemake_executor_plugin_slurm"), reason="pip install snakemake-executor-plugin-slurm"
+        bool(MISSING), reason=f"no {', '.join(MISSING)}: apt-get install slurm-wlm munge"
     ),
-    pytest.mark.skipif(" " in sys.executable, reason="the plugin for Slurm does not quote the path of Python"),
+    pytest.mark.skipif(
+        not find_spec("snakemake_executor_plugin_slurm"),
+        reason="pip install snakemake-executor-plugin-slurm",
+    ),
+    pytest.mark.skipif(
+        " " in sys.executable, reason="the plugin for Slurm does not quote the path of Python"
+    ),
     pytest.mark.skipif(os.geteuid() != 0, reason="a node of Slurm is started by root"),
-    pytest.mark.skipif(os.path.exists("/etc/slurm/slurm.conf"), reason="this machine has a Slurm, left alone"),
+    pytest.mark.skipif(
+        os.path.exists("/etc/slurm/slurm.conf"), reason="this machine has a Slurm, left alone"
+    ),
 ]
 
 # This Slurm keeps no accounts; and it is looked at more often than a cluster wants to be.
@@ -40,7 +49,9 @@ def slurm(tmp_path):
 def test_jobs_run_on_a_cluster(fresh, slurm):
     """A mesh and a solve, and a job of the benchmark, which has the node for itself."""
     targets = ["results/small/solutions/P1/n2.npz", "results/studies/benchmark/machine.json"]
-    run = fresh.build("--workflow-profile", "profiles/slurm", *HERE, *SOON, "--", *targets, cores=None)
+    run = fresh.build(
+        "--workflow-profile", "profiles/slurm", *HERE, *SOON, "--", *targets, cores=None
+    )
     assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
     assert run.text.count("has been submitted with SLURM jobid") == 3
     assert all((fresh / target).is_file() for target in targets)

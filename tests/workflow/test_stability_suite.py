@@ -1,4 +1,6 @@
-"""The stability suite, quick: from a clean checkout to pages that are readable, all its promises kept."""
+"""The stability suite, quick: from a clean checkout to pages that are readable, all its promises
+kept.
+"""
 
 import csv
 import re
@@ -38,7 +40,9 @@ def test_what_a_job_loads_is_among_its_inputs(built, spied):
     assert missing == {script: [] for script in missing}
     own = {path.name for path in (built / "workflow/scripts").glob("*stability*.py")}
     assert missing.keys() == own
-    assert "signorini.studies.rivals.bounded" in rooms_of(spied)["stability_success.py"]  # SciPy's, always there
+    assert (
+        "signorini.studies.rivals.bounded" in rooms_of(spied)["stability_success.py"]
+    )  # SciPy's, always there
 
 
 def test_an_edited_rival_is_tried_again(built, tmp_path):
@@ -56,7 +60,11 @@ def rows(path):
 
 def test_every_piece_is_a_file(suite):
     assert {path.stem for path in (suite / "success").glob("[!.]*")} == set(FAMILIES)
-    assert all((suite / f"stability_{name}.{ending}").stat().st_size for name in FIGURES for ending in ("pdf", "png"))
+    assert all(
+        (suite / f"stability_{name}.{ending}").stat().st_size
+        for name in FIGURES
+        for ending in ("pdf", "png")
+    )
 
 
 def test_every_promise_is_kept(suite):
@@ -81,14 +89,20 @@ def test_the_page_begins_with_its_answer(suite):
 
 
 def test_estimates_and_statuses_are_those_of_the_solves(suite):
-    solves = [row for path in (suite / "success").iterdir() for row in rows(path) if row["solver"].startswith("ours/")]
+    solves = [
+        row
+        for path in (suite / "success").iterdir()
+        for row in rows(path)
+        if row["solver"].startswith("ours/")
+    ]
     assert sum(int(row["solutions"]) for row in rows(suite / "statuses.csv")) == len(solves)
     answers = sum(row["claimed"] == "1" for row in solves)
     assert sum(int(row["answers"]) for row in rows(suite / "estimates.csv")) == answers
 
 
 @pytest.mark.parametrize(
-    ("seeds", "first"), [("fixed", "0"), ("20261125", "20261125000"), ("random", f"{date.today():%Y%m%d}000")]
+    ("seeds", "first"),
+    [("fixed", "0"), ("20261125", "20261125000"), ("random", f"{date.today():%Y%m%d}000")],
 )
 def test_seeds_are_fixed_or_those_of_a_day_in_a_folder_of_their_own(tmp_path, seeds, first):
     asked = ("--config", "quick=true", f"seeds={seeds}", "--", "stability")
@@ -101,9 +115,13 @@ def test_seeds_are_fixed_or_those_of_a_day_in_a_folder_of_their_own(tmp_path, se
 
 
 def test_other_seeds_are_refused(tmp_path):
-    run = Project.fresh(tmp_path / "project").run("-n", "--config", "seeds=sometimes", "--", "stability")
+    run = Project.fresh(tmp_path / "project").run(
+        "-n", "--config", "seeds=sometimes", "--", "stability"
+    )
     (error,) = run.errors
-    assert error.endswith('seeds: "sometimes" is not valid; expected fixed, random or a whole number')
+    assert error.endswith(
+        'seeds: "sometimes" is not valid; expected fixed, random or a whole number'
+    )
 
 
 @pytest.mark.skipif(not LATEX, reason="needs latexmk and pdflatex")

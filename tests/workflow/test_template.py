@@ -1,4 +1,6 @@
-"""config/template.yaml, which README says to start from: it names every key with its default, and it builds."""
+"""config/template.yaml, which README says to start from: it names every key with its default, and
+it builds.
+"""
 
 import re
 
@@ -48,7 +50,15 @@ def test_what_it_leaves_out_has_that_default(written, tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text(TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
     document = load_scene(path).document
-    for key in ("load_quadrature", "elements", "norms", "norm_quadrature", "slope", "outputs", "solver"):
+    for key in (
+        "load_quadrature",
+        "elements",
+        "norms",
+        "norm_quadrature",
+        "slope",
+        "outputs",
+        "solver",
+    ):
         assert document[key] == everything[key]
     assert document["load_quadrature"] == "exact"
     assert "Section 5" not in document["title"]
@@ -56,11 +66,16 @@ def test_what_it_leaves_out_has_that_default(written, tmp_path):
 
 def test_it_is_a_scene_that_builds_by_the_commands_of_the_readme(tmp_path):
     """Both README files give them; the levels are as they stand, the load by the default rule."""
-    commands = ["cp config/template.yaml config/scenes/mine.yaml", "snakemake --cores 2 --config 'scenes=[mine]'"]
+    commands = [
+        "cp config/template.yaml config/scenes/mine.yaml",
+        "snakemake --cores 2 --config 'scenes=[mine]'",
+    ]
     for page in ("README.md", "config/README.md"):
         assert "\n".join(commands) in (ROOT / page).read_text(encoding="utf-8"), page
     project = Project.fresh(tmp_path / "project")
-    project.write("config/scenes/mine.yaml", (project / "config/template.yaml").read_text(encoding="utf-8"))
+    project.write(
+        "config/scenes/mine.yaml", (project / "config/template.yaml").read_text(encoding="utf-8")
+    )
     project.build("--config", "scenes=[mine]")
     built = project.results()
     assert {"mine/table.md", "mine/rates.csv", "mine/figures/solution.pdf"} <= set(built)
@@ -77,4 +92,6 @@ def test_it_is_a_scene_that_builds_by_the_commands_of_the_readme(tmp_path):
         assert slopes[element, "h1_semi"] == pytest.approx(1.0, abs=0.1)
     contact = built["mine/contact_line.csv"].decode().splitlines()
     binding = contact[0].split(",").index("binding")
-    assert {row.split(",")[binding] for row in contact[1:]} == {"0", "1"}, "contact on a part of the side only"
+    assert {row.split(",")[binding] for row in contact[1:]} == {"0", "1"}, (
+        "contact on a part of the side only"
+    )

@@ -33,7 +33,9 @@ rule benchmark_point:
         statement=statement,
         repeats=lambda wildcards: as_json(measured()["repeats"]),
         limits=lambda wildcards: as_json(measured()["limits"]),
-        before=lambda wildcards, input: f"--before {quote(str(input.before))}" if input.before else "",
+        before=lambda wildcards, input: (
+            f"--before {quote(str(input.before))}" if input.before else ""
+        ),
         warm_up=lambda wildcards: max(int(wildcards.n) // 2, scene(wildcards.scene).levels[0]),
     shell:
         "python3 workflow/scripts/benchmark_point.py --statement {params.statement:q} --scene {wildcards.scene}"
@@ -148,7 +150,11 @@ rule benchmark_figure:
 rule benchmark:
     input:
         library("benchmark_report.py"),
-        expand(f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}", figure=BENCHMARK_FIGURES, ending=["pdf", "png"]),
+        expand(
+            f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}",
+            figure=BENCHMARK_FIGURES,
+            ending=["pdf", "png"],
+        ),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
         summary=f"{BENCHMARK}/summary.json",

@@ -8,7 +8,9 @@ BENCHMARK_FIGURES = ["error", "dofs", "growth", "stages", "rivals"]
 def measured():
     """config/benchmark.yaml, checked, with what stands under quick in place of the rest where that is asked for."""
     source = "config/benchmark.yaml"
-    asked = validated(load_yaml(source), load_yaml("workflow/schemas/benchmark.schema.yaml"), source)
+    asked = validated(
+        load_yaml(source), load_yaml("workflow/schemas/benchmark.schema.yaml"), source
+    )
     asked |= asked.get("quick", {}) if CONFIG["quick"] else {}
     for name, part in asked["scenes"].items():
         if scene(name).truth["kind"] != "exact" and "reference" not in part:
@@ -35,7 +37,9 @@ def shown_levels(name):
 
 
 def points(wildcards):
-    from signorini.solvers import METHODS  # which needs NumPy: only where the benchmark is asked for
+    from signorini.solvers import (
+        METHODS,
+    )  # which needs NumPy: only where the benchmark is asked for
 
     return [
         f"{BENCHMARK}/points/{name}/{element}/{method}/n{n}.csv"
@@ -48,7 +52,9 @@ def points(wildcards):
 
 def point_before(wildcards):
     n = int(wildcards.n)
-    return [str(Path(BENCHMARK, "points", *wildcards[:3], f"n{n // 2}.csv"))] * (n > scene(wildcards.scene).levels[0])
+    return [str(Path(BENCHMARK, "points", *wildcards[:3], f"n{n // 2}.csv"))] * (
+        n > scene(wildcards.scene).levels[0]
+    )
 
 
 def duels(wildcards):
@@ -65,7 +71,10 @@ def duels(wildcards):
 def errors_asked():
     """The rows of errors that the summary needs, of each scene: on the levels shown here, and on the scene's own."""
     asked = {name: scene(name).section("elements", "levels") for name in measured()["scenes"]}
-    return {"errors": {name: part | {"levels": shown_levels(name)} for name, part in asked.items()}, "coarse": asked}
+    return {
+        "errors": {name: part | {"levels": shown_levels(name)} for name, part in asked.items()},
+        "coarse": asked,
+    }
 
 
 def all_cores(wildcards):
@@ -82,4 +91,8 @@ def own_references():
 def bending_files(wildcards):
     """The errors of the scenes whose own reference is coarser than the benchmark's."""
     asked = measured()["scenes"]
-    return [f"results/{name}/errors.csv" for name, n in own_references().items() if asked[name]["reference"] > n]
+    return [
+        f"results/{name}/errors.csv"
+        for name, n in own_references().items()
+        if asked[name]["reference"] > n
+    ]

@@ -16,14 +16,18 @@ PROJECT = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).paren
 if Path.cwd().resolve() != PROJECT.resolve():
     # Every path is relative to the project's folder: to find scenes, and not to tie results to a machine.
     sys.exit(
-        "error: start Snakemake in the project's folder: cd {0}, or add --directory {0}".format(quote(str(PROJECT)))
+        "error: start Snakemake in the project's folder: cd {0}, or add --directory {0}".format(
+            quote(str(PROJECT))
+        )
     )
 
 SOURCE = Path("src")
 SCRIPTS = Path("workflow/scripts")
 sys.path.insert(0, str(SOURCE.resolve()))
 # The python3 of a job is the one that runs Snakemake.
-os.environ.update(PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]))
+os.environ.update(
+    PATH=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)])
+)
 
 from signorini.mesh.boundary import labels_of
 from signorini.exceptions import SignoriniError
@@ -78,9 +82,15 @@ def where_asked(key):
 @reported
 def check_results():
     """Refuse to start what could not be stored."""
-    for folder in map(Path, ["results", "results/meshes", *(f"results/{name}" for name in CONFIG["scenes"])]):
-        if os.path.lexists(folder) and not (folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)):
-            raise SignoriniError(f"{folder}: not a folder that can be written; make it one, or move it away")
+    for folder in map(
+        Path, ["results", "results/meshes", *(f"results/{name}" for name in CONFIG["scenes"])]
+    ):
+        if os.path.lexists(folder) and not (
+            folder.is_dir() and os.access(folder, os.W_OK | os.X_OK)
+        ):
+            raise SignoriniError(
+                f"{folder}: not a folder that can be written; make it one, or move it away"
+            )
 
 
 def check_memory(jobs):
@@ -113,7 +123,9 @@ def written(name):
     check_name(name)
     path = Path("config/scenes", f"{name}.yaml")
     if not path.is_file():
-        place = f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
+        place = (
+            f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
+        )
         raise SignoriniError(f"{place}: there is no {path}; {nearest(name, known_scenes())}")
     found = read_scene(path)
     for line in found.warnings:
@@ -173,7 +185,9 @@ def imported(path):
     """The files that a file's import statements name, and the rooms it names in text, to be imported when used."""
     text = path.read_text(encoding="utf-8")
     names = {match for match in re.findall(r'"(signorini\.[\w.]+)[":]', text)}
-    for module, found in re.findall(r"^ *from (signorini[\w.]*|stage) import (\([^)]*\)|.*)$", text, re.M):
+    for module, found in re.findall(
+        r"^ *from (signorini[\w.]*|stage) import (\([^)]*\)|.*)$", text, re.M
+    ):
         names |= {module, *(f"{module}.{name}" for name in re.findall(r"\w+", found))}
     return {file for name in names for file in module_files(name)}
 
@@ -253,7 +267,11 @@ def mesh_file(wildcards):
 
 def solutions(name):
     asked = scene(name)
-    return [f"results/{name}/solutions/{element}/n{n}.npz" for element in asked.elements for n in asked.levels]
+    return [
+        f"results/{name}/solutions/{element}/n{n}.npz"
+        for element in asked.elements
+        for n in asked.levels
+    ]
 
 
 def solution_files(wildcards):
@@ -271,7 +289,9 @@ def finest_of_each(wildcards):
 
 def reference_file(wildcards):
     """The truth as an input of the errors: a file where it is a reference, none where it is exact."""
-    return [f"results/{wildcards.scene}/reference.npz"] * (scene(wildcards.scene).truth["kind"] == "reference")
+    return [f"results/{wildcards.scene}/reference.npz"] * (
+        scene(wildcards.scene).truth["kind"] == "reference"
+    )
 
 
 def truth_option(wildcards, input):
@@ -283,7 +303,9 @@ def truth_option(wildcards, input):
 def coefficient_option(wildcards):
     """The diffusion coefficient, where a norm is weighted with it."""
     document = scene(wildcards.scene).document
-    return f"--coefficient {quote(as_json(document['data']['coefficient']))}" * ("energy" in document["norms"])
+    return f"--coefficient {quote(as_json(document['data']['coefficient']))}" * (
+        "energy" in document["norms"]
+    )
 
 
 def asked_rows(wildcards):
@@ -313,7 +335,11 @@ def scene_output(name):
     files += ["expect.txt"] if "expect" in asked.document else []
     files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
     if "figures" in outputs:
-        files += [f"{figure}.{ending}" for figure in FIGURES for ending in ("pdf", "png")] if paper else ["figures"]
+        files += (
+            [f"{figure}.{ending}" for figure in FIGURES for ending in ("pdf", "png")]
+            if paper
+            else ["figures"]
+        )
     return solutions(name) + [f"results/{name}/{file}" for file in files]
 
 
@@ -329,7 +355,11 @@ def shown(wildcards):
 
 
 def drawn_norms(document):
-    return [norm for norm in document["norms"] if norm in RATED] if "rates" in document["outputs"] else []
+    return (
+        [norm for norm in document["norms"] if norm in RATED]
+        if "rates" in document["outputs"]
+        else []
+    )
 
 
 def figure_options(wildcards):
@@ -344,9 +374,14 @@ def figure_options(wildcards):
 
 def paper_output():
     """The check and the PDF, where the scene `paper` is asked for with all that they show."""
-    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(scene("paper").document["outputs"]):
+    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(
+        scene("paper").document["outputs"]
+    ):
         return []
-    return [f"results/paper/{file}" for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]]
+    return [
+        f"results/paper/{file}"
+        for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]
+    ]
 
 
 def all_scenes():
@@ -368,7 +403,11 @@ def final_output():
 def digits_asked():
     """What the scene `paper` asks, and no finer where the stability suite is to be quick."""
     asked = scene("paper").section("elements", "levels", "truth", "norms")
-    return asked | ({"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}} if CONFIG["quick"] else {})
+    return asked | (
+        {"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}}
+        if CONFIG["quick"]
+        else {}
+    )
 
 
 def stability_pieces(folder, names):
@@ -386,8 +425,15 @@ def stability_seeds():
 
 def appendix():
     """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
-    fragments = [folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))]
-    return [part for path in fragments if path.is_file() for part in (path, *sorted(path.parent.glob("*.pdf")))]
+    fragments = [
+        folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))
+    ]
+    return [
+        part
+        for path in fragments
+        if path.is_file()
+        for part in (path, *sorted(path.parent.glob("*.pdf")))
+    ]
 
 
 def sensitivity_levels():

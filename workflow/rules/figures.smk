@@ -25,7 +25,9 @@ rule figure_surface:
         surface="results/{scene}/surface.npz",
     output:
         pdf="results/{scene}/surface.pdf",
-        png=report("results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"),
+        png=report(
+            "results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"
+        ),
     log:
         "results/{scene}/logs/figure_surface.log",
     params:

@@ -11,7 +11,9 @@ use rule table as table_5_1 with:
 use rule figure_surface as figure_5_1 with:
     output:
         pdf="results/{scene,paper}/figure_5_1.pdf",
-        png=report("results/{scene}/figure_5_1.png", caption="../report/surface.rst", category="paper"),
+        png=report(
+            "results/{scene}/figure_5_1.png", caption="../report/surface.rst", category="paper"
+        ),
 
 
 rule figures_5_2_and_5_3:
@@ -22,8 +24,12 @@ rule figures_5_2_and_5_3:
     output:
         l2="results/paper/figure_5_2.pdf",
         h1="results/paper/figure_5_3.pdf",
-        l2_png=report("results/paper/figure_5_2.png", caption="../report/convergence.rst", category="paper"),
-        h1_png=report("results/paper/figure_5_3.png", caption="../report/convergence.rst", category="paper"),
+        l2_png=report(
+            "results/paper/figure_5_2.png", caption="../report/convergence.rst", category="paper"
+        ),
+        h1_png=report(
+            "results/paper/figure_5_3.png", caption="../report/convergence.rst", category="paper"
+        ),
     log:
         "results/paper/logs/figures_5_2_and_5_3.log",
     priority: 5
@@ -84,7 +90,9 @@ rule effects:
     params:
         content=content("effects.py"),
         statement=lambda wildcards: statement_of("paper"),
-        scene=lambda wildcards: as_json(scene("paper").section("elements", "levels", "truth", "norms")),
+        scene=lambda wildcards: as_json(
+            scene("paper").section("elements", "levels", "truth", "norms")
+        ),
     shell:
         "python3 workflow/scripts/effects.py --statement {params.statement:q} --scene {params.scene:q}"
         " --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"

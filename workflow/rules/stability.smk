@@ -12,7 +12,13 @@ PROBLEM_FAMILIES = [
     *("right-angled", "rising", "criss-cross", "delaunay", "perturbed", "stretched", "needles"),
     *("graded", "inclusions", "layers", "oscillating"),
 ]
-VARIANTS = {"auto": 1, "routes": 1, "routes-two-threads": 2, "last-bit": 1, "renumbered": 1}  # and their threads
+VARIANTS = {
+    "auto": 1,
+    "routes": 1,
+    "routes-two-threads": 2,
+    "last-bit": 1,
+    "renumbered": 1,
+}  # and their threads
 
 _FINEST = {"smooth": 6 if QUICK else 11, "patch": 6 if QUICK else 12}
 FLOOR = {
@@ -139,7 +145,11 @@ rule figure_stability:
         success=stability_pieces("success", PROBLEM_FAMILIES),
         floor=stability_pieces("floor", FLOOR),
     output:
-        [f"{STABILITY}/stability_{figure}.{ending}" for figure in STABILITY_FIGURES for ending in ("pdf", "png")],
+        [
+            f"{STABILITY}/stability_{figure}.{ending}"
+            for figure in STABILITY_FIGURES
+            for ending in ("pdf", "png")
+        ],
     log:
         f"{STABILITY}/logs/figures.log",
     params:

@@ -14,7 +14,8 @@ from signorini.studies.rivals import RIVALS
 
 @options("--files", ("--asked", {"type": json.loads}), "--points", "--rivals", "--summary")
 def main(arguments):
-    """Files of points, rivals and errors (JSON: lists of paths by kind) to one table each, and a summary (JSON).
+    """Files of points, rivals and errors (JSON: lists of paths by kind) to one table each, and a
+    summary (JSON).
 
     What is asked (JSON: elements and levels of each scene, by kind) must be in the errors.
     """

@@ -11,7 +11,9 @@ from signorini.studies.benchmark.report import Report
 
 @options("--points", "--rivals", "--summary", "--machine", "--asked", "--tex", "--markdown")
 def main(arguments):
-    """benchmark.csv, rivals.csv, summary.json, machine.json and what was asked (JSON) to benchmark.tex and .md."""
+    """benchmark.csv, rivals.csv, summary.json, machine.json and what was asked (JSON) to
+    benchmark.tex and .md.
+    """
     report = Report(
         read_csv(arguments.points, numbers=(*POINT_NUMBERS, *ERRORS)),
         read_csv(arguments.rivals, numbers=RIVAL_NUMBERS),

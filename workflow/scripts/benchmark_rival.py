@@ -19,17 +19,32 @@ def rounds(rival, mesh, statement, element, levels, seconds):
 
 
 @options(
-    *("--statement", "--mesh", "--scene", "--element", "--rival", ("--levels", {"type": json.loads})),
+    *(
+        "--statement",
+        "--mesh",
+        "--scene",
+        "--element",
+        "--rival",
+        ("--levels", {"type": json.loads}),
+    ),
     *(("--seconds", {"type": float}), "--output"),
 )
 def main(arguments):
     """A statement (JSON), levels and the limit of one solve to a row per level and route of ours."""
     names = ("rival", "mesh", "statement", "element", "levels", "seconds")
-    found, trouble = guarded(rounds, tuple(getattr(arguments, name) for name in names), patience(arguments.seconds))
+    found, trouble = guarded(
+        rounds, tuple(getattr(arguments, name) for name in names), patience(arguments.seconds)
+    )
     rows = [row for level in found for row in level]
     if trouble:
         missing = [n for n in arguments.levels if n not in {row.get("n") for row in rows}]
-        rows.append({"n": missing[0] if missing else arguments.levels[-1], "status": "failed", "note": trouble})
+        rows.append(
+            {
+                "n": missing[0] if missing else arguments.levels[-1],
+                "status": "failed",
+                "note": trouble,
+            }
+        )
     what = {key: getattr(arguments, key) for key in ("scene", "element", "rival")}
     write_csv(arguments.output, [{name: (row | what).get(name) for name in RIVAL} for row in rows])
     last = rows[-1]

@@ -11,8 +11,13 @@ from signorini.storage import read_table, write_csv
 
 @options("--errors", "--rates", ("--asked", {"type": json.loads}), "--published", "--output")
 def main(arguments):
-    """errors.csv, rates.csv, what the scene asks (JSON) and the published numbers to check.csv; `verify` judges it."""
-    errors, rates = read_errors(arguments.errors, arguments.asked), read_rates(arguments.rates, arguments.asked)
+    """errors.csv, rates.csv, what the scene asks (JSON) and the published numbers to check.csv;
+    `verify` judges it.
+    """
+    errors, rates = (
+        read_errors(arguments.errors, arguments.asked),
+        read_rates(arguments.rates, arguments.asked),
+    )
     rows = compare(read_table(arguments.published), errors, rates)
     write_csv(arguments.output, rows)
     return f"check: {sum(row['ok'] for row in rows)} of {len(rows)} published numbers met"

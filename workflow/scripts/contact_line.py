@@ -1,4 +1,6 @@
-"""The contact line of solutions as a table: the trace of u, the obstacle, the contact force, where u binds."""
+"""The contact line of solutions as a table: the trace of u, the obstacle, the contact force, where
+u binds.
+"""
 
 from stage import options, run
 
@@ -16,7 +18,9 @@ def main(arguments):
     found = [read_solution(path) for path in arguments.solutions]
     rows = [row for solution in found for row in contact_rows(domain.level(solution.n), solution)]
     if not rows:
-        raise SceneError("boundary: no degree of freedom is in contact; drop the contact line from outputs")
+        raise SceneError(
+            "boundary: no degree of freedom is in contact; drop the contact line from outputs"
+        )
     write_csv(arguments.output, rows)
     return f"contact line: {len(rows)} rows, {sum(row['critical'] is not None for row in rows)} critical points"
 

@@ -14,7 +14,9 @@ NORMS = ("l2", "h1_semi", "h1")
 
 @options("--statement", "--scene", "--errors", "--output")
 def main(arguments):
-    """A statement, what the scene asks (elements, levels, truth, norms; JSON) and errors.csv to effects.csv."""
+    """A statement, what the scene asks (elements, levels, truth, norms; JSON) and errors.csv to
+    effects.csv.
+    """
     scene = json.loads(arguments.scene)
     rows = read_errors(arguments.errors, scene, numbers=NORMS)
     changes = effects_of_choices(
@@ -25,7 +27,10 @@ def main(arguments):
         (scene["truth"]["element"], scene["truth"]["n"]),
         scene["norms"],
     )
-    write_csv(arguments.output, [{"choice": choice, "change": change} for choice, change in changes.items()])
+    write_csv(
+        arguments.output,
+        [{"choice": choice, "change": change} for choice, change in changes.items()],
+    )
     return f"effects: {len(changes)} choices changed, one at a time"
 
 

@@ -22,14 +22,23 @@ from signorini.storage import write_csv
     ("solutions", {"nargs": "+"}),
 )
 def main(arguments):
-    """Solutions and truth (a stored reference, or the statement of a scene with an exact one) to a row each."""
+    """Solutions and truth (a stored reference, or the statement of a scene with an exact one) to a
+    row each.
+    """
     domain = read_domain(arguments.mesh)
     norms = arguments.norms.split(",")
     if arguments.reference:
-        reference, coefficient = read_solution(arguments.reference), json.loads(arguments.coefficient)
-        errors = measure.against_reference(reference, domain, norms, arguments.quadrature, coefficient)
+        reference, coefficient = (
+            read_solution(arguments.reference),
+            json.loads(arguments.coefficient),
+        )
+        errors = measure.against_reference(
+            reference, domain, norms, arguments.quadrature, coefficient
+        )
     else:
-        errors = measure.against_exact(ProblemStatement.from_mapping(json.loads(arguments.statement)), domain, norms)
+        errors = measure.against_exact(
+            ProblemStatement.from_mapping(json.loads(arguments.statement)), domain, norms
+        )
     rows = [measure.row(read_solution(path), errors) for path in arguments.solutions]
     write_csv(arguments.output, rows)
     return f"errors: {len(rows)} solutions"

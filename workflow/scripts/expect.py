@@ -10,12 +10,21 @@ from signorini.storage import write_text
 
 
 @options(
-    "--expected", "--slope", ("--asked", {"type": json.loads}), "--errors", ("--rates", {"required": False}), "--output"
+    "--expected",
+    "--slope",
+    ("--asked", {"type": json.loads}),
+    "--errors",
+    ("--rates", {"required": False}),
+    "--output",
 )
 def main(arguments):
-    """errors.csv, rates.csv and what the scene asks (JSON) to a line of text, or an error that lists what is off."""
+    """errors.csv, rates.csv and what the scene asks (JSON) to a line of text, or an error that
+    lists what is off.
+    """
     errors = read_errors(arguments.errors, arguments.asked)
-    rates = read_rates(arguments.rates, arguments.asked, numbers=("slope",)) if arguments.rates else []
+    rates = (
+        read_rates(arguments.rates, arguments.asked, numbers=("slope",)) if arguments.rates else []
+    )
     rates = [row for row in rates if row["kind"] == arguments.slope]
     line = check_expectations(json.loads(arguments.expected), errors, rates, arguments.errors)
     write_text(arguments.output, line + "\n")

@@ -10,7 +10,9 @@ from signorini.storage import write_npz
 
 @options("--mesh", "--solution", "--output")
 def main(arguments):
-    """A solution to a triangulation of bearable size, u at its corners, and the state of the boundary."""
+    """A solution to a triangulation of bearable size, u at its corners, and the state of the
+    boundary.
+    """
     solution = read_solution(arguments.solution)
     field = field_of(read_domain(arguments.mesh).level(solution.n), solution)
     write_npz(arguments.output, kind="field", **field)

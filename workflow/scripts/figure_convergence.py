@@ -14,7 +14,9 @@ from signorini.report.result_files import read_errors, read_rates
     *(("--l2", {"nargs": "+"}), ("--h1", {"nargs": "+"})),
 )
 def main(arguments):
-    """errors.csv, rates.csv and what the scene asks (JSON) to two figures, in the formats of their endings."""
+    """errors.csv, rates.csv and what the scene asks (JSON) to two figures, in the formats of their
+    endings.
+    """
     errors = read_errors(arguments.errors, arguments.asked)
     rates = read_rates(arguments.rates, arguments.asked, numbers=("slope",))
     for norm, paths in (("l2", arguments.l2), ("h1", arguments.h1)):

@@ -11,7 +11,9 @@ from signorini.storage import read_npz
 
 @options("--titles", ("--fields", {"nargs": "+"}), ("--outputs", {"nargs": "+"}))
 def main(arguments):
-    """Names and titles of the scenes, a JSON object, and as many field.npz to a figure in each of the formats."""
+    """Names and titles of the scenes, a JSON object, and as many field.npz to a figure in each of
+    the formats.
+    """
     titles = json.loads(arguments.titles)
     fields = [read_npz(path, kind="field") for path in arguments.fields]
     scenes = zip(titles.items(), fields, strict=True)

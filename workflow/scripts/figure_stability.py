@@ -6,7 +6,13 @@ from stage import options, run
 
 from signorini.figures import stability as figures
 from signorini.figures.style import save_figure
-from signorini.studies.stability.parts import digits_by_cell, error_pairs, read_parts, shares, titles
+from signorini.studies.stability.parts import (
+    digits_by_cell,
+    error_pairs,
+    read_parts,
+    shares,
+    titles,
+)
 from signorini.studies.stability.proof import OVERESTIMATE, UNDERESTIMATE
 from signorini.studies.stability.round_off import growth
 
@@ -19,8 +25,12 @@ def main(arguments):
     errors = [row for name, piece in floor.items() if "-" in name for row in piece]
     drawings = {
         "ours": lambda: figures.draw_digits(digits_by_cell(success)),
-        "rivals": lambda: figures.draw_rivals(shares(success, "load"), shares(success, "family"), titles(success)),
-        "estimates": lambda: figures.draw_estimates(error_pairs(success), (UNDERESTIMATE, OVERESTIMATE)),
+        "rivals": lambda: figures.draw_rivals(
+            shares(success, "load"), shares(success, "family"), titles(success)
+        ),
+        "estimates": lambda: figures.draw_estimates(
+            error_pairs(success), (UNDERESTIMATE, OVERESTIMATE)
+        ),
         "floor": lambda: figures.draw_floor(errors, growth(floor["conditions"], "condition")),
         "stretched": lambda: figures.draw_stretched(floor["stretching"]),
     }

@@ -1,4 +1,6 @@
-"""Draw what a scene shows, to PDF and PNG: its solution, its contact line, its errors in every norm."""
+"""Draw what a scene shows, to PDF and PNG: its solution, its contact line, its errors in every
+norm.
+"""
 
 import json
 from pathlib import Path
@@ -26,7 +28,8 @@ OPTIONAL = {"required": False}
     "--output",
 )
 def main(arguments):
-    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv to a folder of figures.
+    """field.npz and, where given, contact_line.csv, errors.csv and rates.csv to a folder of
+    figures.
 
     Of the last two with what to draw of them (elements, levels, norms; JSON).
     """
@@ -35,7 +38,10 @@ def main(arguments):
         figures["contact_line"] = draw_contact_line(read_csv(arguments.line))
     if arguments.errors:
         asked = arguments.asked
-        errors, rates = read_errors(arguments.errors, asked), read_rates(arguments.rates, asked, numbers=("slope",))
+        errors, rates = (
+            read_errors(arguments.errors, asked),
+            read_rates(arguments.rates, asked, numbers=("slope",)),
+        )
         for norm in asked["norms"]:
             figures[norm] = draw_convergence(errors, norm, slopes_of(rates, norm, arguments.slope))
     for name, figure in figures.items():

@@ -16,7 +16,9 @@ from signorini.studies.sensitivity.combinations import combinations, ratios, rea
     ("errors", {"nargs": "+"}),
 )
 def main(arguments):
-    """The errors of each diagonal to a row per combination, and to the ratios of the elements' errors."""
+    """The errors of each diagonal to a row per combination, and to the ratios of the elements'
+    errors.
+    """
     errors = read_errors(arguments.errors, arguments.levels)
     rows = combinations(errors, read_table(arguments.published))
     write_csv(arguments.combinations, rows)

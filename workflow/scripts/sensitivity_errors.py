@@ -14,7 +14,9 @@ from signorini.studies.sensitivity.unsaid import count_solves
 def main(arguments):
     """A statement and levels, as JSON, to the errors of both elements."""
     statement = ProblemStatement.from_mapping(json.loads(arguments.statement))
-    rows = errors_of_diagonal(statement, arguments.diagonal, json.loads(arguments.levels), arguments.reference_n)
+    rows = errors_of_diagonal(
+        statement, arguments.diagonal, json.loads(arguments.levels), arguments.reference_n
+    )
     write_csv(arguments.output, rows)
     return f"sensitivity: {arguments.diagonal}, {count_solves(rows)} solves"
 

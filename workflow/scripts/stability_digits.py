@@ -15,7 +15,9 @@ from stage import options, run
     "--output",
 )
 def main(arguments):
-    """A statement, what the scene asks (elements, levels, truth, norms; JSON) and a variant to a row per number."""
+    """A statement, what the scene asks (elements, levels, truth, norms; JSON) and a variant to a
+    row per number.
+    """
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = str(arguments.threads)
     # NumPy counts its threads when it is imported.

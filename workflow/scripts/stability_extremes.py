@@ -1,4 +1,6 @@
-"""One kind of extremes: scaling, domains, critical-points, contact-sets, or a random walk over scenes."""
+"""One kind of extremes: scaling, domains, critical-points, contact-sets, or a random walk over
+scenes.
+"""
 
 from stage import options, run
 
@@ -17,7 +19,9 @@ KINDS = {
 
 @options("--kind", ("--values", {"type": float, "nargs": "*"}), "--output")
 def main(arguments):
-    """A kind and its values (powers of two or ten, numbers of periods, of scenes) to a row per case."""
+    """A kind and its values (powers of two or ten, numbers of periods, of scenes) to a row per
+    case.
+    """
     rows = KINDS[arguments.kind](arguments.values)
     write_csv(arguments.output, rows)
     return f"extremes: {arguments.kind}, {len(rows)} cases"

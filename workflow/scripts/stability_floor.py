@@ -1,4 +1,6 @@
-"""Errors against an exact solution down to round-off, condition numbers, or the patch test on stretched meshes."""
+"""Errors against an exact solution down to round-off, condition numbers, or the patch test on
+stretched meshes.
+"""
 
 from stage import options, run
 
@@ -8,7 +10,9 @@ from signorini.studies.stability import round_off as stability_floor
 
 @options("--piece", ("--levels", {"type": float, "nargs": "+"}), "--output")
 def main(arguments):
-    """``<family>-<element>``, ``conditions`` or ``stretching`` (its levels are exponents of ten) to a row per level."""
+    """``<family>-<element>``, ``conditions`` or ``stretching`` (its levels are exponents of ten) to
+    a row per level.
+    """
     levels = [int(n) for n in arguments.levels]
     if arguments.piece == "conditions":
         rows = stability_floor.conditions(levels)

@@ -18,7 +18,9 @@ def main(arguments):
     write_text(folder / "stability.md", report.markdown(CAPTIONS))
     claims = report.claims()
     names = ("solvers", "statuses", "estimates", "digits", "crossings")
-    for name, rows in ({"claims": claims} | {name: getattr(report, name) for name in names}).items():
+    for name, rows in (
+        {"claims": claims} | {name: getattr(report, name) for name in names}
+    ).items():
         write_csv(folder / f"{name}.csv", rows)
     return f"stability: {sum(row['met'] for row in claims)} of {len(claims)} claims met"
 

@@ -16,7 +16,9 @@ from signorini.studies.stability.success import measure
 def main(arguments):
     """A family's name, the first seed and the number of seeds to a row per problem and solver."""
     first, number = arguments.seeds
-    rows = measure(arguments.family, range(first, first + number), arguments.few, arguments.time_limit)
+    rows = measure(
+        arguments.family, range(first, first + number), arguments.few, arguments.time_limit
+    )
     write_csv(arguments.output, rows)
     return f"success: {arguments.family}, seeds from {first} on, {len(rows)} solves"
 

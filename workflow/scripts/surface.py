@@ -1,4 +1,6 @@
-"""The numbers that the surface figure shows: the reference on a coarse grid, its contact line and critical points."""
+"""The numbers that the surface figure shows: the reference on a coarse grid, its contact line and
+critical points.
+"""
 
 from stage import options, run
 

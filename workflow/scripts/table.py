@@ -9,9 +9,19 @@ from signorini.report.tables import error_table, markdown_table
 from signorini.storage import write_text
 
 
-@options("--errors", "--rates", ("--asked", {"type": json.loads}), "--slope", "--note", "--tex", "--markdown")
+@options(
+    "--errors",
+    "--rates",
+    ("--asked", {"type": json.loads}),
+    "--slope",
+    "--note",
+    "--tex",
+    "--markdown",
+)
 def main(arguments):
-    """errors.csv, rates.csv and what the scene asks (elements, levels, norms; JSON) to a LaTeX and a Markdown table."""
+    """errors.csv, rates.csv and what the scene asks (elements, levels, norms; JSON) to a LaTeX and
+    a Markdown table.
+    """
     asked = arguments.asked
     errors, rates = read_errors(arguments.errors, asked), read_rates(arguments.rates, asked)
     shown = {"norms": asked["norms"], "elements": asked["elements"], "kind": arguments.slope}

@@ -27,13 +27,15 @@ def contact_errors(mesh, element, solution, exact):
     Returns
     -------
     dict
-        ``trace_l2``: L2 norm of u - u_h, for CR of the trace from inside; unit of u times sqrt(length).
-        ``multiplier_l2``: L2 norm of du/dnu - lambda_h; unit of u per sqrt(length). lambda_h is constant on cells:
-        for CR on each facet, for P1 on the nearer halves of those that meet at a vertex; see `contact_flux`. The cells
-        of Dirichlet vertices, which have no multiplier, are left out.
-        ``critical_points``: Hausdorff distance between the exact critical points on the contact side and those of
-        the discrete solution, known to half a mesh width; unit of length. Infinite where only one of the two has
-        any, None where the exact solution names none.
+        ``trace_l2``: L2 norm of u - u_h, for CR of the trace from inside; unit of u times
+        sqrt(length).
+        ``multiplier_l2``: L2 norm of du/dnu - lambda_h; unit of u per sqrt(length). lambda_h is
+        constant on cells: for CR on each facet, for P1 on the nearer halves of those that meet at a
+        vertex; see `contact_flux`. The cells of Dirichlet vertices, which have no multiplier, are
+        left out.
+        ``critical_points``: Hausdorff distance between the exact critical points on the contact
+        side and those of the discrete solution, known to half a mesh width; unit of length.
+        Infinite where only one of the two has any, None where the exact solution names none.
 
     Raises
     ------
@@ -68,7 +70,8 @@ def _halves(side, dofs):
     return np.stack([side.ends, middle], axis=1)[:, :, known], place[known], normal[:, known]
 
 
-# The cells on which the multiplier is a constant density: axis, end, cell; the dof of each, and its normal.
+# The cells on which the multiplier is a constant density: axis, end, cell; the dof of each, and its
+# normal.
 _CELLS = {"P1": _halves, "CR": _facets}
 
 
@@ -80,7 +83,9 @@ def _distance(function, cells, values, singular_points, normal=None):
     times = times_to_cut(length.size, _FEWEST_CELLS, corners=2)
     rule = np.stack([1.0 - s, s]), weights
     for found, points, shares, weights in graded(cells, singular_points, rule, times):
-        x, y, u_h = (sum(part[i, found, None] * points[i] for i in range(2)) for part in (*cells, values))
+        x, y, u_h = (
+            sum(part[i, found, None] * points[i] for i in range(2)) for part in (*cells, values)
+        )
         u = function(x, y) if normal is None else function(x, y, *normal[:, found, None])
         squares.append(square(u - u_h, length[found] * shares, weights))
     return root(squares)
@@ -96,7 +101,9 @@ def _on(side, points):
 
 
 def _hausdorff(exact, found):
-    """Hausdorff distance of two sets of points (2, k); None where the first is empty, infinite where the second is."""
+    """Hausdorff distance of two sets of points (2, k); None where the first is empty, infinite
+    where the second is.
+    """
     if not exact.size or not found.size:
         return math.inf if exact.size else None
     apart = np.hypot(*(exact[:, :, None] - found[:, None, :]))

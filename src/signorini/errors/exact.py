@@ -1,10 +1,11 @@
 """Errors against an exact solution, by quadrature of the difference itself: nothing cancels.
 
-The quadrature is that of `errors.pieces`. Measured on interpolants of the families
-corner, punch, smooth and biactive for n = 1 to 256, the quadrature changes the L2 norm by less than 1e-5 of itself and
-the H1 seminorm by less than 2e-7 (at n = 64, and less on coarser and finer meshes); for r**(2/3), singular point
-named, by less than 3e-5 and 2e-6. On meshes graded to the contact side with exponents 2 to 10 (n = 4 to 64), the same
-holds for corner, punch and r**(2/3), and it is 2e-5 and 6e-6 for the two without a singular point, smooth and biactive.
+The quadrature is that of `errors.pieces`. Measured on interpolants of the families corner, punch,
+smooth and biactive for n = 1 to 256, the quadrature changes the L2 norm by less than 1e-5 of itself
+and the H1 seminorm by less than 2e-7 (at n = 64, and less on coarser and finer meshes); for
+r**(2/3), singular point named, by less than 3e-5 and 2e-6. On meshes graded to the contact side
+with exponents 2 to 10 (n = 4 to 64), the same holds for corner, punch and r**(2/3), and it is 2e-5
+and 6e-6 for the two without a singular point, smooth and biactive.
 """
 
 import numpy as np
@@ -56,13 +57,14 @@ class ExactErrors:
         element : {"P1", "CR"}
         u : ndarray, shape (ndof,)
         coefficient : ndarray, shape (nt,), optional
-            Diffusion coefficient of each triangle, 1 where not given: the weight of the energy norm.
+            Diffusion coefficient of each triangle, 1 where not given: the weight of the energy
+            norm.
 
         Returns
         -------
         dict
-            The value of each of `NORMS`, or None for those that nothing asked for needs, as in `ReferenceErrors.of`;
-            and of ``"energy"`` if asked for.
+            The value of each of `NORMS`, or None for those that nothing asked for needs, as in
+            `ReferenceErrors.of`; and of ``"energy"`` if asked for.
 
         Raises
         ------
@@ -81,19 +83,44 @@ class ExactErrors:
             semi += [piece.squared(part) for part in gradient]
             if weight is not None:
                 energy += [piece.squared_energy(part) for part in gradient]
-        squares = {"l2": l2, "h1_semi": semi, "h1": l2 + semi, "energy": semi if weight is None else energy}
+        squares = {
+            "l2": l2,
+            "h1_semi": semi,
+            "h1": l2 + semi,
+            "energy": semi if weight is None else energy,
+        }
         known = {norm for norm, needs in _NEEDS.items() if asked & needs}
-        found = {norm: root(squares[norm]) if norm in known else None for norm in dict.fromkeys((*NORMS, *self.norms))}
-        return found | {norm: float(np.ldexp(found[norm], exponent)) for norm in ("energy",) if norm in self.norms}
+        found = {
+            norm: root(squares[norm]) if norm in known else None
+            for norm in dict.fromkeys((*NORMS, *self.norms))
+        }
+        return found | {
+            norm: float(np.ldexp(found[norm], exponent))
+            for norm in ("energy",)
+            if norm in self.norms
+        }
 
     def _differences(self, piece, with_value):
-        """u - u_h, or None, and its derivatives if there are any to compare; one evaluation of u serves all."""
+        """u - u_h, or None, and its derivatives if there are any to compare; one evaluation of u
+        serves all.
+        """
         u, *slopes = piece.field
         if not slopes:
             return [self.exact.value(piece.x, piece.y) - u if with_value else None]
         if not with_value:
-            return [None, *(a - b for a, b in zip(self.exact.gradient(piece.x, piece.y), slopes, strict=True))]
-        return [a - b for a, b in zip(self.exact.value_and_gradient(piece.x, piece.y), piece.field, strict=True)]
+            return [
+                None,
+                *(
+                    a - b
+                    for a, b in zip(self.exact.gradient(piece.x, piece.y), slopes, strict=True)
+                ),
+            ]
+        return [
+            a - b
+            for a, b in zip(
+                self.exact.value_and_gradient(piece.x, piece.y), piece.field, strict=True
+            )
+        ]
 
 
 # What each norm is computed for.

@@ -1,8 +1,10 @@
-"""Quadrature on many simplices, graded towards singular points, with sums of squares that do not under- or overflow.
+"""Quadrature on many simplices, graded towards singular points, with sums of squares that do not
+under- or overflow.
 
-A simplex is a segment (k = 2) or a triangle (k = 3). One that lies near a singular point, within `NEAR` of its longest
-edge, is cut into halves or quarters again and again, as long as its parts lie near and at most `DEPTH` times. Quarters
-of a needle, a triangle longer than `SHAPELY` of its heights, would be needles: it is cut as in `errors.needles`.
+A simplex is a segment (k = 2) or a triangle (k = 3). One that lies near a singular point, within
+`NEAR` of its longest edge, is cut into halves or quarters again and again, as long as its parts lie
+near and at most `DEPTH` times. Quarters of a needle, a triangle longer than `SHAPELY` of its
+heights, would be needles: it is cut as in `errors.needles`.
 """
 
 import math
@@ -49,7 +51,11 @@ def graded(corners, singular_points, rule, least=0):
     weights : ndarray, shape (q,) or (j, q)
     """
     points, weights = rule
-    near = near_singular(corners, singular_points) if least == 0 else np.ones(corners.shape[2], dtype=bool)
+    near = (
+        near_singular(corners, singular_points)
+        if least == 0
+        else np.ones(corners.shape[2], dtype=bool)
+    )
     if not near.all():
         far = np.flatnonzero(~near)
         yield far, points[:, None, :], np.ones(far.size), weights
@@ -58,12 +64,16 @@ def graded(corners, singular_points, rule, least=0):
     thin = np.flatnonzero(needle)
     for found, *part in needle_parts(corners[:, :, thin], singular_points, NEAR, DEPTH, least):
         yield thin[found], *part
-    for found, cells, share in _cut(corners, singular_points, np.flatnonzero(near & ~needle), least):
+    for found, cells, share in _cut(
+        corners, singular_points, np.flatnonzero(near & ~needle), least
+    ):
         yield found, np.einsum("mvk,vq->kmq", cells, points), np.full(found.size, share), weights
 
 
 def _cut(corners, singular_points, simplices, least):
-    """Yield (simplices, barycentric corners (j, k, k), share) of the parts that are cut no more, by their size."""
+    """Yield (simplices, barycentric corners (j, k, k), share) of the parts that are cut no more, by
+    their size.
+    """
     parts, share = PARTS[corners.shape[1]], 1.0
     cells = np.broadcast_to(np.eye(corners.shape[1]), (simplices.size, *parts.shape[1:]))
     for depth in range(1, least + DEPTH + 1):
@@ -73,14 +83,18 @@ def _cut(corners, singular_points, simplices, least):
         simplices, share = np.tile(simplices, len(parts)), share / len(parts)
         if depth < least:
             continue
-        near = near_singular(np.einsum("dkm,mvk->dvm", corners[:, :, simplices], cells), singular_points)
+        near = near_singular(
+            np.einsum("dkm,mvk->dvm", corners[:, :, simplices], cells), singular_points
+        )
         near &= depth < least + DEPTH
         yield simplices[~near], cells[~near], share
         simplices, cells = simplices[near], cells[near]
 
 
 def near_singular(corners, singular_points):
-    """Whether a singular point lies within `NEAR` longest edges of the centroid of each simplex (2, k, m)."""
+    """Whether a singular point lies within `NEAR` longest edges of the centroid of each simplex (2,
+    k, m).
+    """
     near = np.zeros(corners.shape[2], dtype=bool)
     if not len(singular_points):
         return near
@@ -94,7 +108,8 @@ def near_singular(corners, singular_points):
 def square(values, outer, inner):
     """Weighted sum of squares as (mantissa, exponent): the sum is mantissa times 4**exponent.
 
-    `values` are (a, b); weights are products of those in `outer`, (a,), and in `inner`, (b,), (a, b) or a number.
+    `values` are (a, b); weights are products of those in `outer`, (a,), and in `inner`, (b,), (a,
+    b) or a number.
     """
     with np.errstate(over="ignore", under="ignore"):
         plain = _sum_of_squares(values, outer, inner)
@@ -114,7 +129,9 @@ def _sum_of_squares(values, outer, inner):
 
 
 def scaled_weight(values):
-    """Positive weights of squares over a power of four near the largest, and half its exponent: that of the root."""
+    """Positive weights of squares over a power of four near the largest, and half its exponent:
+    that of the root.
+    """
     half = int(np.frexp(np.max(values))[1]) // 2
     return np.ldexp(values, -2 * half), half
 

@@ -23,8 +23,8 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     Returns
     -------
     callable
-        To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off alone, or
-        ``"reference"`` for the truth itself.
+        To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off
+        alone, or ``"reference"`` for the truth itself.
     """
     from signorini.errors.reference import ReferenceErrors
 
@@ -51,9 +51,11 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
 
 
 def against_exact(statement, domain, norms):
-    """The same against the exact truth of a `ProblemStatement`, with the errors on the contact part.
+    """The same against the exact truth of a `ProblemStatement`, with the errors on the contact
+    part.
 
-    The function raises `SceneError` where critical points are asked for and none of the exact ones lies there.
+    The function raises `SceneError` where critical points are asked for and none of the exact ones
+    lies there.
     """
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
@@ -72,7 +74,9 @@ def against_exact(statement, domain, norms):
             _check_critical_points(on_contact, contact, exact)
             result |= {norm: contact[norm] for norm in on_contact}
         floors = norm_floors(mesh, RoundOff.of(found), norms, weight)
-        return _with_floor(result, floors, lambda doubtful: unresolved(mesh, exact, doubtful, weight))
+        return _with_floor(
+            result, floors, lambda doubtful: unresolved(mesh, exact, doubtful, weight)
+        )
 
     return of
 

@@ -1,10 +1,12 @@
 """Quadrature on needles, triangles much longer than high, graded towards singular points.
 
-A needle's height on its longest edge cuts it into two right triangles, with a foot F, a base FB, the shorter leg, and a
-tip T. The points (1 - s)((1 - t) F + t B) + s T for s and t in an interval each make a box, of nearly orthogonal sides,
-on which a product of two Gauss rules is used. Boxes near a singular point are halved across their longer side: so they
-shrink with the distance in one direction until they are as short as the needle is wide, and then in both; of each size
-there are a few. Their number grows with the logarithm of the needle's aspect, where quarters' grows with the aspect.
+A needle's height on its longest edge cuts it into two right triangles, with a foot F, a base FB,
+the shorter leg, and a tip T. The points (1 - s)((1 - t) F + t B) + s T for s and t in an interval
+each make a box, of nearly orthogonal sides, on which a product of two Gauss rules is used. Boxes
+near a singular point are halved across their longer side: so they shrink with the distance in one
+direction until they are as short as the needle is wide, and then in both; of each size there are a
+few. Their number grows with the logarithm of the needle's aspect, where quarters' grows with the
+aspect.
 """
 
 from typing import NamedTuple
@@ -13,7 +15,10 @@ import numpy as np
 
 from signorini.fem.quadrature import interval_rule
 
-_ALONG, _ACROSS = interval_rule(7), interval_rule(5)  # the area of a box shrinks towards the tip: one degree more
+_ALONG, _ACROSS = (
+    interval_rule(7),
+    interval_rule(5),
+)  # the area of a box shrinks towards the tip: one degree more
 _RESOLUTION = 2.0**-48  # of coordinates: shorter boxes are round-off
 
 
@@ -40,7 +45,9 @@ class Right(NamedTuple):
 
 
 def squared_edges(corners):
-    """Squared lengths of the edges that end at each corner and start at the one before, (k, m), of (2, k, m)."""
+    """Squared lengths of the edges that end at each corner and start at the one before, (k, m), of
+    (2, k, m).
+    """
     edges = corners - np.roll(corners, 1, axis=1)
     return (edges * edges).sum(axis=0)
 
@@ -105,7 +112,15 @@ def _right_triangles(corners):
         leg, flat = part * length, part * length >= height
         ends = np.stack([side, unit[opposite]])
         base, tip = np.where(flat[:, None], ends[::-1], ends)
-        found.append((m, np.stack([foot, base, tip], axis=1), part, np.maximum(leg, height), np.minimum(leg, height)))
+        found.append(
+            (
+                m,
+                np.stack([foot, base, tip], axis=1),
+                part,
+                np.maximum(leg, height),
+                np.minimum(leg, height),
+            )
+        )
     whole = [np.concatenate(parts) for parts in zip(*found, strict=True)]
     return Right(*(part[whole[2] > 0.0] for part in whole))
 
@@ -113,7 +128,9 @@ def _right_triangles(corners):
 def _distance(corners, right, which, boxes, singular_points):
     """From the centre of each box to the nearest singular point."""
     s, t = 0.5 * (boxes[0] + boxes[1]), 0.5 * (boxes[2] + boxes[3])
-    place = np.einsum("dkm,mk->dm", corners[:, :, right.triangles[which]], _barycentric(right, which, s, t))
+    place = np.einsum(
+        "dkm,mk->dm", corners[:, :, right.triangles[which]], _barycentric(right, which, s, t)
+    )
     apart = [np.hypot(place[0] - x, place[1] - y) for x, y in singular_points]
     return np.min(apart, axis=0, initial=np.inf) if apart else np.full(which.size, np.inf)
 

@@ -1,9 +1,11 @@
-"""Errors against a reference on another cut of the same rectangle, exact also where the meshes do not nest.
+"""Errors against a reference on another cut of the same rectangle, exact also where the meshes do
+not nest.
 
-The cells of both meshes are cut by one diagonal or by both, and every cell of the coarser is made of whole cells of the
-finer. Cutting all cells of the finer by both diagonals therefore refines either mesh. From these quarters of cells the
-common refinement is put together: the triangles of the finer mesh, and only where an edge of the coarser one runs
-through such a triangle, its two quarters. On each of its triangles both functions are affine.
+The cells of both meshes are cut by one diagonal or by both, and every cell of the coarser is made
+of whole cells of the finer. Cutting all cells of the finer by both diagonals therefore refines
+either mesh. From these quarters of cells the common refinement is put together: the triangles of
+the finer mesh, and only where an edge of the coarser one runs through such a triangle, its two
+quarters. On each of its triangles both functions are affine.
 """
 
 import numpy as np
@@ -13,7 +15,8 @@ from signorini.exceptions import MeshError
 from signorini.fem.elements import element as find_element
 from signorini.fem.quadrature import triangle_rule
 
-# Corners of the quarters of a cell (bottom, right, top, left), in units of the cell: (4, 3, 2), and their centroids.
+# Corners of the quarters of a cell (bottom, right, top, left), in units of the cell: (4, 3, 2), and
+# their centroids.
 _RING = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 _QUARTERS = np.stack([_RING, np.roll(_RING, -1, axis=0), np.full((4, 2), 0.5)], axis=1)
 _CENTROIDS = _QUARTERS.mean(axis=1)
@@ -25,7 +28,8 @@ class Overlay:
     Parameters
     ----------
     fine, coarse : Grid or Triangulation
-        Cells cut by one diagonal (all of them) or by both; the counts of `fine` are multiples of those of `coarse`.
+        Cells cut by one diagonal (all of them) or by both; the counts of `fine` are multiples of
+        those of `coarse`.
 
     Attributes
     ----------
@@ -56,7 +60,9 @@ class Overlay:
         whole = (in_coarse[family] == in_coarse[family[:, :1]]).all(axis=1)
         pieces = family[~whole].ravel()
         self.points = np.concatenate([fine.p[:, fine.t[:, whole]], finer.quarters(pieces)], axis=2)
-        self.area = 0.5 * np.abs(_cross(self.points[:, 1] - self.points[:, 0], self.points[:, 2] - self.points[:, 0]))
+        self.area = 0.5 * np.abs(
+            _cross(self.points[:, 1] - self.points[:, 0], self.points[:, 2] - self.points[:, 0])
+        )
         first = np.concatenate([family[whole, 0], pieces])
         self.parents = in_fine[first], in_coarse[first]
 
@@ -68,24 +74,31 @@ class Overlay:
         reference, solution : tuple
             Name of the element and its vector, on the finer and on the coarser mesh.
         rules : sequence of str
-            Rules for its square on each triangle of the common refinement: ``"exact"``, or a name that
-            `quadrature.triangle_rule` knows.
+            Rules for its square on each triangle of the common refinement: ``"exact"``, or a name
+            that `quadrature.triangle_rule` knows.
 
         Returns
         -------
         dict of dict
-            For each rule the norms ``"l2"``, ``"h1_semi"`` and ``"h1"`` as `ReferenceErrors.of` has them.
+            For each rule the norms ``"l2"``, ``"h1_semi"`` and ``"h1"`` as `ReferenceErrors.of` has
+            them.
         """
-        # A power of two near max |u| keeps squares from under- and overflowing, and changes no digit.
+        # A power of two near max |u| keeps squares from under- and overflowing, and changes no
+        # digit.
         exponent = int(np.frexp(np.max(np.abs(reference[1]), initial=0.0))[1])
-        ours, theirs = (self._function(k, name, u, exponent) for k, (name, u) in enumerate((reference, solution)))
+        ours, theirs = (
+            self._function(k, name, u, exponent)
+            for k, (name, u) in enumerate((reference, solution))
+        )
         values, slopes = ours[0] - theirs[0], ours[1] - theirs[1]
         semi = float(self.area @ (slopes * slopes).sum(axis=0))
         found = {}
         for rule in rules:
             l2 = self._squared_l2(values, rule)
             squares = {"l2": l2, "h1_semi": semi, "h1": l2 + semi}
-            found[rule] = {norm: float(np.ldexp(np.sqrt(square), exponent)) for norm, square in squares.items()}
+            found[rule] = {
+                norm: float(np.ldexp(np.sqrt(square), exponent)) for norm, square in squares.items()
+            }
         return found
 
     def _function(self, k, name, u, exponent):
@@ -112,7 +125,9 @@ class _Cells:
 
     def __init__(self, mesh):
         low, high = mesh.p.min(axis=1), mesh.p.max(axis=1)
-        self.nx, self.ny = (max(1, np.count_nonzero(mesh.p[1 - axis] == low[1 - axis]) - 1) for axis in (0, 1))
+        self.nx, self.ny = (
+            max(1, np.count_nonzero(mesh.p[1 - axis] == low[1 - axis]) - 1) for axis in (0, 1)
+        )
         self.origin, self.width = low, (high - low) / (self.nx, self.ny)
         corners = self._in_cells(*mesh.p[:, mesh.t])
         column, row = np.floor(corners.mean(axis=1)).astype(int)
@@ -132,7 +147,10 @@ class _Cells:
     def fit_in(self, coarser):
         """Whether the cells cut those of `coarser` into equal parts."""
         same = np.array_equal(self.origin, coarser.origin) and np.allclose(
-            self.width * (self.nx, self.ny), coarser.width * (coarser.nx, coarser.ny), rtol=1e-14, atol=0.0
+            self.width * (self.nx, self.ny),
+            coarser.width * (coarser.nx, coarser.ny),
+            rtol=1e-14,
+            atol=0.0,
         )
         return same and self.nx % coarser.nx == 0 and self.ny % coarser.ny == 0
 
@@ -140,7 +158,9 @@ class _Cells:
         """Centroids of all quarters: x and y, shape (4, ny, nx)."""
         x = np.arange(self.nx) + _CENTROIDS[:, 0, None, None]
         y = np.arange(self.ny)[:, None] + _CENTROIDS[:, 1, None, None]
-        return np.broadcast_arrays(self.origin[0] + self.width[0] * x, self.origin[1] + self.width[1] * y)
+        return np.broadcast_arrays(
+            self.origin[0] + self.width[0] * x, self.origin[1] + self.width[1] * y
+        )
 
     def quarters(self, numbers):
         """Corners of quarters by their number in `triangles`, flat: shape (2, 3, k)."""
@@ -157,12 +177,19 @@ class _Cells:
         return self.triangles[quarter, row, column]
 
     def _in_cells(self, x, y):
-        return np.stack([(x - self.origin[0]) / self.width[0], (y - self.origin[1]) / self.width[1]])
+        return np.stack(
+            [(x - self.origin[0]) / self.width[0], (y - self.origin[1]) / self.width[1]]
+        )
 
 
 def _hold(corners, x, y):
-    """Whether each triangle, corners (2, 3, nt), holds a point of its own, whichever way it is turned."""
-    sides = [_cross(corners[:, k] - corners[:, k - 1], np.stack([x, y]) - corners[:, k - 1]) for k in range(3)]
+    """Whether each triangle, corners (2, 3, nt), holds a point of its own, whichever way it is
+    turned.
+    """
+    sides = [
+        _cross(corners[:, k] - corners[:, k - 1], np.stack([x, y]) - corners[:, k - 1])
+        for k in range(3)
+    ]
     return np.all(np.stack(sides) > 0.0, axis=0) | np.all(np.stack(sides) < 0.0, axis=0)
 
 

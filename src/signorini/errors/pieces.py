@@ -1,8 +1,9 @@
 """Quadrature points over a mesh, a piece at a time, with a piecewise affine function at them.
 
-Every triangle gets Radon's rule of degree 5, with seven points; near singular points it is cut into parts as in
-`errors.graded`, and so is every triangle of a coarse mesh. On a grid, all points of a line share a coordinate, and rows
-of cells that hold no such triangle need no coordinates of each: see `signorini.fem.grid_lines`.
+Every triangle gets Radon's rule of degree 5, with seven points; near singular points it is cut into
+parts as in `errors.graded`, and so is every triangle of a coarse mesh. On a grid, all points of a
+line share a coordinate, and rows of cells that hold no such triangle need no coordinates of each:
+see `signorini.fem.grid_lines`.
 """
 
 from dataclasses import replace
@@ -17,7 +18,8 @@ from signorini.fem.grid_lines import points_on_lines, weighted
 from signorini.mesh.grid import Grid
 
 _ROOT = np.sqrt(15.0)
-# Radon (1948): the centroid and two orbits of three points (1 - 2s, s, s), exact for polynomials up to degree 5.
+# Radon (1948): the centroid and two orbits of three points (1 - 2s, s, s), exact for polynomials up
+# to degree 5.
 _ORBITS = [s + (1.0 - 3.0 * s) * np.eye(3) for s in ((6.0 - _ROOT) / 21.0, (6.0 + _ROOT) / 21.0)]
 RADON = (
     np.concatenate([np.full((3, 1), 1 / 3), *_ORBITS], axis=1),
@@ -47,7 +49,8 @@ class Field(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """Points, in arrays whose first axes run over the `outer` weights, and the others over the `inner` ones.
+    """Points, in arrays whose first axes run over the `outer` weights, and the others over the
+    `inner` ones.
 
     Attributes
     ----------
@@ -98,7 +101,9 @@ def pieces(mesh, field, singular_points):
         part = Field(*(None if values is None else values[..., numbers] for values in field))
         vertices, t = np.unique(grid.triangles(numbers).t, return_inverse=True)
         areas = np.full(numbers.size, grid.area)
-        yield from _triangles(grid.points(vertices), t.reshape(3, -1), areas, part, singular_points, 0)
+        yield from _triangles(
+            grid.points(vertices), t.reshape(3, -1), areas, part, singular_points, 0
+        )
     bounds = np.flatnonzero(np.diff(near, prepend=True, append=True))
     for first, last in bounds.reshape(-1, 2):
         for kind, corners in enumerate(grid.corners):
@@ -111,7 +116,9 @@ def _fine(grid, field):
         grid = replace(grid, nx=2 * grid.nx, ny=2 * grid.ny)
         field = Field(
             prolong(grid, field.values),
-            None if field.slopes is None else np.stack([_spread(grid, slope) for slope in field.slopes]),
+            None
+            if field.slopes is None
+            else np.stack([_spread(grid, slope) for slope in field.slopes]),
             None if field.weight is None else _spread(grid, field.weight),
         )
     return grid, field
@@ -137,7 +144,8 @@ def _rows(grid, kind, corners, field, first, last):
     """Triangles of one kind in some rows of cells: (lines, points, rows, columns)."""
     points, weights = RADON
     values, slopes, weight = (
-        None if part is None else part.reshape(-1, 2, grid.ny, grid.nx)[:, kind, first:last] for part in field
+        None if part is None else part.reshape(-1, 2, grid.ny, grid.nx)[:, kind, first:last]
+        for part in field
     )
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
         at_points = [np.tensordot(points[:, which], values[:, rows], axes=(0, 0))]
@@ -166,7 +174,10 @@ def _composite(times):
     """Radon's rule on each part of a triangle that is cut into quarters so many times."""
     points, weights = RADON
     for _ in range(times):
-        points, weights = np.concatenate([part.T @ points for part in PARTS[3]], axis=1), np.tile(weights / 4.0, 4)
+        points, weights = (
+            np.concatenate([part.T @ points for part in PARTS[3]], axis=1),
+            np.tile(weights / 4.0, 4),
+        )
     return points, weights
 
 
@@ -174,7 +185,9 @@ def _whole(corners, area, field, cells, kept, rule):
     """Those of a slice of the triangles that are kept."""
     points, weights = rule
     kept = slice(None) if kept.all() else kept
-    values, slopes, weight = (None if part is None else part[..., cells][..., kept] for part in field)
+    values, slopes, weight = (
+        None if part is None else part[..., cells][..., kept] for part in field
+    )
     x, y, u = (weighted(points.T, part) for part in (*corners[:, :, kept], values))
     inner = area[cells][kept]
     energy = inner if weight is None else inner * weight
@@ -194,5 +207,7 @@ def _parts(p, t, area, field, singular_points, times, numbers):
 
 
 def _at(points, values):
-    """An affine function, or several, by corner values (..., 3, m), at barycentric points (3, m or 1, q)."""
+    """An affine function, or several, by corner values (..., 3, m), at barycentric points (3, m or
+    1, q).
+    """
     return sum(values[..., i, :, None] * points[i] for i in range(3))

@@ -1,16 +1,23 @@
-"""Piecewise affine functions on nested meshes: from a mesh to the one it was refined from, and back.
+"""Piecewise affine functions on nested meshes: from a mesh to the one it was refined from, and
+back.
 
-A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the vertices of each
-triangle. The children of a triangle are listed as `Grid.vertex_children` lists them.
+A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the
+vertices of each triangle. The children of a triangle are listed as `Grid.vertex_children` lists
+them.
 """
 
 import numpy as np
 
-# Values of the parent's affine function at the vertices of child k, from its values at its own vertices: (4, 3, 3).
-# Local vertex i of child k < 3 is the midpoint of vertices i and k, of child 3 that of the two others than i.
-PROLONG = np.stack([0.5 * (np.eye(3) + np.eye(3)[k]) for k in range(3)] + [0.5 * (np.ones((3, 3)) - np.eye(3))])
+# Values of the parent's affine function at the vertices of child k, from its values at its own
+# vertices: (4, 3, 3). Local vertex i of child k < 3 is the midpoint of vertices i and k, of child 3
+# that of the two others than i.
+PROLONG = np.stack(
+    [0.5 * (np.eye(3) + np.eye(3)[k]) for k in range(3)] + [0.5 * (np.ones((3, 3)) - np.eye(3))]
+)
 
-_MASS = (np.ones((3, 3)) + np.eye(3)) / 12.0  # of an affine function by its vertex values, on a triangle of area 1
+_MASS = (
+    np.ones((3, 3)) + np.eye(3)
+) / 12.0  # of an affine function by its vertex values, on a triangle of area 1
 
 # L2 projection of four affine children onto one affine parent: inv(M) sum_k P_k' M / 4, (4, 3, 3).
 PROJECT = np.stack([np.linalg.solve(_MASS, P.T @ _MASS) / 4.0 for P in PROLONG])

@@ -23,15 +23,16 @@ def rate_rows(errors):
     Returns
     -------
     list of dict
-        For every element, norm that is known and kind of slope: ``element``, ``norm``, ``kind``, ``slope``, and
-        ``floor``, which says what is wrong with it: ``"1"`` where an error is round-off alone, so that the slope means
-        nothing, ``"reference"`` where a solution is the reference itself, ``"zero"`` where a distance of critical
-        points is zero or infinite, else ``"0"``. There is no slope (None) in the last two cases, and where an error
-        that is round-off is exactly zero.
+        For every element, norm that is known and kind of slope: ``element``, ``norm``, ``kind``,
+        ``slope``, and ``floor``, which says what is wrong with it: ``"1"`` where an error is
+        round-off alone, so that the slope means nothing, ``"reference"`` where a solution is the
+        reference itself, ``"zero"`` where a distance of critical points is zero or infinite, else
+        ``"0"``. There is no slope (None) in the last two cases, and where an error that is
+        round-off is exactly zero.
 
-        Critical points of a solution lie midway between contact unknowns, so that their distance from the exact ones
-        is at most about half a mesh width but jumps below that: its slope is about 1 over many levels, and tells
-        nothing over two.
+        Critical points of a solution lie midway between contact unknowns, so that their distance
+        from the exact ones is at most about half a mesh width but jumps below that: its slope is
+        about 1 over many levels, and tells nothing over two.
 
     Raises
     ------
@@ -44,10 +45,15 @@ def rate_rows(errors):
         for norm in (norm for norm in RATED if found[0].get(norm) is not None):
             values = [row[norm] for row in found]
             trouble = _trouble(norm, values, [row["floor"].split() for row in found])
-            none = trouble in (REFERENCE, NO_LOGARITHM) or (trouble == ROUND_OFF and not all(values))
+            none = trouble in (REFERENCE, NO_LOGARITHM) or (
+                trouble == ROUND_OFF and not all(values)
+            )
             taken = dict.fromkeys(KINDS) if none else slopes([row["h"] for row in found], values)
             series = {"element": element, "norm": norm}
-            rows += [series | {"kind": kind, "slope": slope, "floor": trouble} for kind, slope in taken.items()]
+            rows += [
+                series | {"kind": kind, "slope": slope, "floor": trouble}
+                for kind, slope in taken.items()
+            ]
     return rows
 
 
@@ -61,18 +67,22 @@ def _trouble(norm, values, floors):
 
 
 def trouble_of(row):
-    """What is wrong with the slope of a row of rates.csv, as `rate_rows` names it; ``"0"`` where nothing is."""
+    """What is wrong with the slope of a row of rates.csv, as `rate_rows` names it; ``"0"`` where
+    nothing is.
+    """
     return str(row.get("floor", SOUND))
 
 
 def reference_note(truth, levels, elements):
-    """What a reference that is hardly finer than the finest level does to the errors there and to the last slope.
+    """What a reference that is hardly finer than the finest level does to the errors there and to
+    the last slope.
 
-    Take errors of order h^2 in L2 and h in H1. Against a reference of its own element, width r h, the error is that
-    of L2 less the reference's, and by Galerkin orthogonality the root of the difference of squares in H1: smaller by
-    1 - r^2 and by its root. Against one of the other element it is larger by at most 1 + r^2 and its root. Measured
-    on four scenes with r = 1/2: 0.13 to 0.42 and 0.15 to 0.20 instead of 0.32 and 0.16, and 0.06 to 0.23 and 0.04 to
-    0.10 instead of at most 0.23 and 0.12.
+    Take errors of order h^2 in L2 and h in H1. Against a reference of its own element, width r h,
+    the error is that of L2 less the reference's, and by Galerkin orthogonality the root of the
+    difference of squares in H1: smaller by 1 - r^2 and by its root. Against one of the other
+    element it is larger by at most 1 + r^2 and its root. Measured on four scenes with r = 1/2: 0.13
+    to 0.42 and 0.15 to 0.20 instead of 0.32 and 0.16, and 0.06 to 0.23 and 0.04 to 0.10 instead of
+    at most 0.23 and 0.12.
 
     Parameters
     ----------
@@ -89,8 +99,14 @@ def reference_note(truth, levels, elements):
     """
     if truth["kind"] != "reference" or truth["n"] >= FINE_ENOUGH * levels[-1]:
         return None
-    ratio, own, others = truth["n"] / levels[-1], truth["element"], [e for e in elements if e != truth["element"]]
-    parts = [_own_element(own, ratio)] * (own in elements) + [_other_element(e, ratio) for e in others]
+    ratio, own, others = (
+        truth["n"] / levels[-1],
+        truth["element"],
+        [e for e in elements if e != truth["element"]],
+    )
+    parts = [_own_element(own, ratio)] * (own in elements) + [
+        _other_element(e, ratio) for e in others
+    ]
     times = "no finer than" if ratio == 1 else "only 2 times as fine as"
     return (
         f"the reference, n = {truth['n']}, is {times} the finest level: {'; '.join(parts)}; "
@@ -127,16 +143,19 @@ def slopes(h, errors):
     Returns
     -------
     dict
-        ``"mean"``: mean of the slopes between successive levels, which for halved h is the slope between the end
-        points; ``"fit"``: least-squares line. Dimensionless.
+        ``"mean"``: mean of the slopes between successive levels, which for halved h is the slope
+        between the end points; ``"fit"``: least-squares line. Dimensionless.
 
     Raises
     ------
     SignoriniError
-        If there are fewer than two levels, or an error is zero (log 0): the solution equals its truth there.
+        If there are fewer than two levels, or an error is zero (log 0): the solution equals its
+        truth there.
     """
     if len(h) < 2:
-        raise SignoriniError(f"rates: a slope needs two levels, found {len(h)}; add one to levels or drop rates")
+        raise SignoriniError(
+            f"rates: a slope needs two levels, found {len(h)}; add one to levels or drop rates"
+        )
     for size, value in zip(h, errors, strict=True):
         if not (value > 0.0 and math.isfinite(value)):
             raise SignoriniError(
@@ -145,5 +164,7 @@ def slopes(h, errors):
     x, y = [math.log(v) for v in h], [math.log(v) for v in errors]
     steps = [(b - a) / (d - c) for a, b, c, d in zip(y, y[1:], x, x[1:], strict=False)]
     mx, my = math.fsum(x) / len(x), math.fsum(y) / len(y)
-    fit = math.fsum((a - mx) * (b - my) for a, b in zip(x, y, strict=True)) / math.fsum((a - mx) ** 2 for a in x)
+    fit = math.fsum((a - mx) * (b - my) for a, b in zip(x, y, strict=True)) / math.fsum(
+        (a - mx) ** 2 for a in x
+    )
     return {"mean": math.fsum(steps) / len(steps), "fit": fit}

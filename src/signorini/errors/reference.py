@@ -1,13 +1,16 @@
-"""Errors against a reference on a finer, nested mesh, integrated exactly; the reference is read once for all.
+"""Errors against a reference on a finer, nested mesh, integrated exactly; the reference is read
+once for all.
 
-With Pi the L2 projection onto affine functions of a coarser mesh, Pythagoras gives for every u_h on it
+With Pi the L2 projection onto affine functions of a coarser mesh, Pythagoras gives for every u_h on
+it
 
     |u - u_h|^2 = |u - Pi u|^2 + |Pi u - u_h|^2,
 
-and |u - Pi u|^2 adds up over the meshes between. So one pass from the reference's mesh down to the coarsest serves
-every solution of every level, at the cost of one evaluation; all terms are squares of differences, so nothing
-cancels. The same holds for gradients with the mean over the children; and where they are weighted with a coefficient
-that is constant on each triangle of the reference's mesh, with the weighted mean and the mean of the weights.
+and |u - Pi u|^2 adds up over the meshes between. So one pass from the reference's mesh down to the
+coarsest serves every solution of every level, at the cost of one evaluation; all terms are squares
+of differences, so nothing cancels. The same holds for gradients with the mean over the children;
+and where they are weighted with a coefficient that is constant on each triangle of the reference's
+mesh, with the weighted mean and the mean of the weights.
 """
 
 from functools import cached_property
@@ -38,7 +41,8 @@ class ReferenceErrors:
     quadrature : str
         ``"exact"`` or the name of a rule applied on the reference's mesh.
     coefficient : ndarray, shape (nt,), optional
-        Diffusion coefficient of each of its triangles, 1 where not given: the weight of the energy norm.
+        Diffusion coefficient of each of its triangles, 1 where not given: the weight of the energy
+        norm.
 
     Raises
     ------
@@ -53,9 +57,12 @@ class ReferenceErrors:
         self.mesh = mesh
         self.norms = tuple(norms)
         self.quadrature = quadrature
-        # Powers of two near max |u|, of four near max k: squares do not under- or overflow, and no digit changes.
+        # Powers of two near max |u|, of four near max k: squares do not under- or overflow, and no
+        # digit changes.
         self.exponent = int(np.frexp(np.max(np.abs(u), initial=0.0))[1])
-        self.weight, self.weight_exponent = (None, 0) if coefficient is None else scaled_weight(coefficient)
+        self.weight, self.weight_exponent = (
+            (None, 0) if coefficient is None else scaled_weight(coefficient)
+        )
         self.values = find_element(element).vertex_values(mesh, np.ldexp(u, -self.exponent))
 
     def of(self, mesh, element, u):
@@ -71,9 +78,10 @@ class ReferenceErrors:
         Returns
         -------
         dict
-            The value of each of `NORMS`, or None for those that nothing asked for needs (h1 needs the other two), and
-            of ``"energy"`` if asked for. Units: l2 that of u times length, h1_semi that of u, energy that of u times
-            the root of the coefficient's; h1 adds the squares of l2 and h1_semi as numbers.
+            The value of each of `NORMS`, or None for those that nothing asked for needs (h1 needs
+            the other two), and of ``"energy"`` if asked for. Units: l2 that of u times length,
+            h1_semi that of u, energy that of u times the root of the coefficient's; h1 adds the
+            squares of l2 and h1_semi as numbers.
 
         Raises
         ------
@@ -96,7 +104,8 @@ class ReferenceErrors:
         }
 
     def unresolved(self, mesh, norms):
-        """Norms of what no function that is affine on each triangle of `mesh` has of the reference: norm -> value.
+        """Norms of what no function that is affine on each triangle of `mesh` has of the reference:
+        norm -> value.
 
         A part of every error that `of` finds on this mesh, if integrated exactly.
         """
@@ -104,7 +113,9 @@ class ReferenceErrors:
             "l2": lambda: self._at(self._affine, mesh)[1],
             "h1_semi": lambda: self._at(self._constant, mesh)[1],
             "h1": lambda: self._at(self._affine, mesh)[1] + self._at(self._constant, mesh)[1],
-            "energy": lambda: self._at(self._constant if self.weight is None else self._weighted, mesh)[1],
+            "energy": lambda: self._at(
+                self._constant if self.weight is None else self._weighted, mesh
+            )[1],
         }
         return {norm: self._root(norm, rest[norm]()) for norm in norms}
 
@@ -147,7 +158,9 @@ class ReferenceErrors:
 
     @cached_property
     def _affine(self):
-        """Per mesh, finest first: (mesh, projection of u, squared L2 norm of what the projection lost)."""
+        """Per mesh, finest first: (mesh, projection of u, squared L2 norm of what the projection
+        lost).
+        """
         return list(_descend(self.mesh, self.values, project))
 
     @cached_property
@@ -158,14 +171,22 @@ class ReferenceErrors:
     @cached_property
     def _weighted(self):
         """The same for the gradient under the coefficient, which is the third row."""
-        return list(_descend(self.mesh, np.stack([*self.mesh.gradients(self.values), self.weight]), _weighted_mean))
+        return list(
+            _descend(
+                self.mesh,
+                np.stack([*self.mesh.gradients(self.values), self.weight]),
+                _weighted_mean,
+            )
+        )
 
     def _squared_by_rule(self, mesh, values):
         for finer in reversed(self._finer_than(mesh)):
             values = prolong(finer, values)
         points, weights = triangle_rule(self.quadrature)
         difference = self.values - values
-        density = sum(w * (point @ difference) ** 2 for point, w in zip(points.T, weights, strict=True))
+        density = sum(
+            w * (point @ difference) ** 2 for point, w in zip(points.T, weights, strict=True)
+        )
         return float(np.sum(self.mesh.area * density))
 
 
@@ -181,7 +202,9 @@ def _descend(mesh, values, reduce):
 
 
 def _mean(mesh, values):
-    """Mean over the children of a piecewise constant field (2, nt), and the squared L2 norm of the difference."""
+    """Mean over the children of a piecewise constant field (2, nt), and the squared L2 norm of the
+    difference.
+    """
     family = mesh.children(values)
     mean = family.mean(axis=0)
     area = 0.25 * np.asarray(mesh.coarser().area)
@@ -189,12 +212,17 @@ def _mean(mesh, values):
 
 
 def _weighted_mean(mesh, values):
-    """The same for a field under a weight, its third row: the weighted mean, and the mean of the weights."""
+    """The same for a field under a weight, its third row: the weighted mean, and the mean of the
+    weights.
+    """
     family = mesh.children(values)
     slopes, weights = family[:, :2], family[:, 2:]
     mean = (weights * slopes).sum(axis=0) / weights.sum(axis=0)
     area = 0.25 * np.asarray(mesh.coarser().area)
-    rest = sum(_squared_constant(area * w[0], child - mean) for child, w in zip(slopes, weights, strict=True))
+    rest = sum(
+        _squared_constant(area * w[0], child - mean)
+        for child, w in zip(slopes, weights, strict=True)
+    )
     return np.concatenate([mean, weights.mean(axis=0)]), rest
 
 

@@ -1,4 +1,6 @@
-"""The round-off in the norms of an error: an error that is round-off alone says nothing of the discretisation."""
+"""The round-off in the norms of an error: an error that is round-off alone says nothing of the
+discretisation.
+"""
 
 from dataclasses import dataclass
 
@@ -9,12 +11,14 @@ from signorini.mesh.grid import Grid
 
 _EPS = float(np.finfo(float).eps)
 
-# An accuracy is an estimate, down to a tenth of the error; on the contact patch test, where all errors are round-off,
-# none exceeds its floor without this factor more than 1.6 times (n = 2 to 128, both elements, both routes).
+# An accuracy is an estimate, down to a tenth of the error; on the contact patch test, where all
+# errors are round-off, none exceeds its floor without this factor more than 1.6 times (n = 2 to
+# 128, both elements, both routes).
 _FACTOR = 8.0
 
-# An error is not round-off alone where the mesh cannot resolve this share of it: 0.25 and more on the scenes that ship;
-# 0.046 and more on meshes graded with exponents up to 10, but where round-off had spoilt the solution (0.014, 0.007).
+# An error is not round-off alone where the mesh cannot resolve this share of it: 0.25 and more on
+# the scenes that ship; 0.046 and more on meshes graded with exponents up to 10, but where round-off
+# had spoilt the solution (0.014, 0.007).
 _SHARE = 0.03
 
 
@@ -42,9 +46,17 @@ class RoundOff:
     @classmethod
     def of(cls, found):
         """That of a `StoredSolution`."""
-        size, variation = float(np.max(np.abs(found.u), initial=0.0)), float(np.ptp(found.u)) if found.u.size else 0.0
+        size, variation = (
+            float(np.max(np.abs(found.u), initial=0.0)),
+            float(np.ptp(found.u)) if found.u.size else 0.0,
+        )
         force = found.multiplier_accuracy * float(np.max(np.abs(found.multiplier), initial=0.0))
-        return cls(size, _FACTOR * (_EPS * size + found.accuracy * variation), _FACTOR * force, found.residual)
+        return cls(
+            size,
+            _FACTOR * (_EPS * size + found.accuracy * variation),
+            _FACTOR * force,
+            found.residual,
+        )
 
     def together_with(self, other):
         """The worse of two, each in its kind."""
@@ -55,9 +67,10 @@ class RoundOff:
 def norm_floors(mesh, rounding, norms, coefficient=None):
     """The size up to which each norm of an error may be round-off alone.
 
-    An error of every degree of freedom has in l2 the norm of a constant. Its energy is the work that the residual of
-    the equations does on it, not the square of the error over the width of a triangle: on a graded mesh that would be
-    larger by many powers of ten. A force is divided by the length of its facet.
+    An error of every degree of freedom has in l2 the norm of a constant. Its energy is the work
+    that the residual of the equations does on it, not the square of the error over the width of a
+    triangle: on a graded mesh that would be larger by many powers of ten. A force is divided by the
+    length of its facet.
 
     Parameters
     ----------
@@ -75,7 +88,11 @@ def norm_floors(mesh, rounding, norms, coefficient=None):
         For each of the norms but the distance of critical points, in its unit.
     """
     k = np.broadcast_to(1.0, mesh.number_of_triangles) if coefficient is None else coefficient
-    return {norm: float(np.sqrt(_SQUARES[norm](mesh, k, rounding))) for norm in norms if norm in _SQUARES}
+    return {
+        norm: float(np.sqrt(_SQUARES[norm](mesh, k, rounding)))
+        for norm in norms
+        if norm in _SQUARES
+    }
 
 
 def round_off_alone(errors, floors, unresolved):
@@ -88,15 +105,17 @@ def round_off_alone(errors, floors, unresolved):
     floors : dict
         As `norm_floors` gives them.
     unresolved : callable
-        From a list of norms to a dict: norm -> what no discrete function on the solution's mesh has of the truth, a
-        part of every error in this norm. Asked only of the norms in doubt.
+        From a list of norms to a dict: norm -> what no discrete function on the solution's mesh has
+        of the truth, a part of every error in this norm. Asked only of the norms in doubt.
 
     Returns
     -------
     list of str
         Those in which the error is not above its floor, and more than what the mesh cannot resolve.
     """
-    doubtful = [norm for norm, floor in floors.items() if errors[norm] is not None and errors[norm] <= floor]
+    doubtful = [
+        norm for norm, floor in floors.items() if errors[norm] is not None and errors[norm] <= floor
+    ]
     parts = unresolved(doubtful) if doubtful else {}
     return [norm for norm in doubtful if parts[norm] <= _SHARE * errors[norm]]
 
@@ -106,7 +125,9 @@ def _l2(mesh, k, rounding):
 
 
 def _energy(mesh, k, rounding):
-    """A row of the equations is off by at most the residual times three times its diagonal entry times max |u|."""
+    """A row of the equations is off by at most the residual times three times its diagonal entry
+    times max |u|.
+    """
     residual = 3.0 * max(_EPS, rounding.residual) * rounding.size
     return rounding.dof * residual * np.sum(k * _stiffness(mesh))
 
@@ -127,7 +148,9 @@ def _multiplier(mesh, k, rounding):
 
 
 def _stiffness(mesh):
-    """Trace of each triangle's stiffness matrix for a coefficient of 1, (nt,): dimensionless, large for needles."""
+    """Trace of each triangle's stiffness matrix for a coefficient of 1, (nt,): dimensionless, large
+    for needles.
+    """
     if isinstance(mesh, Grid):
         hx, hy = mesh.spacing
         return np.broadcast_to(hx / hy + hy / hx, mesh.number_of_triangles)

@@ -1,7 +1,8 @@
-"""What a mesh cannot resolve of an exact solution: a part of the error of every discrete function on it.
+"""What a mesh cannot resolve of an exact solution: a part of the error of every discrete function
+on it.
 
-With Pi the best approximation on each triangle or facet, |u - u_h| >= |u - Pi u|: by affine functions for u, by
-constants for its gradient and for the contact force.
+With Pi the best approximation on each triangle or facet, |u - u_h| >= |u - Pi u|: by affine
+functions for u, by constants for its gradient and for the contact force.
 """
 
 import numpy as np
@@ -12,7 +13,9 @@ from signorini.fem.quadrature import interval_rule, triangle_rule
 
 _DEGREE = 4  # the fit of a parabola is exact
 _TRIANGLES_AT_ONCE = 2**13
-_ROUNDING = 64.0 * float(np.finfo(float).eps)  # a smaller share of the solution is how it was evaluated
+_ROUNDING = 64.0 * float(
+    np.finfo(float).eps
+)  # a smaller share of the solution is how it was evaluated
 
 
 def unresolved(mesh, exact, norms, coefficient=None):
@@ -44,7 +47,11 @@ def _value(mesh, exact, _):
 
 
 def _gradient(mesh, exact, coefficient):
-    weight, exponent = (np.ones(mesh.number_of_triangles), 0) if coefficient is None else scaled_weight(coefficient)
+    weight, exponent = (
+        (np.ones(mesh.number_of_triangles), 0)
+        if coefficient is None
+        else scaled_weight(coefficient)
+    )
     parts = np.split(weight, range(_TRIANGLES_AT_ONCE, weight.size, _TRIANGLES_AT_ONCE))
     found = _counted(
         _lost(along, area * k, weights, np.ones((weights.size, 1)))
@@ -56,7 +63,9 @@ def _gradient(mesh, exact, coefficient):
 
 def _trace(mesh, exact, _):
     side, (s, weights) = find_side(mesh, "contact"), interval_rule(_DEGREE + 1)
-    return _counted([_lost(exact.value(*side.points(s)), side.length, weights, np.stack([1.0 - s, s], axis=1))])
+    return _counted(
+        [_lost(exact.value(*side.points(s)), side.length, weights, np.stack([1.0 - s, s], axis=1))]
+    )
 
 
 def _multiplier(mesh, exact, _):
@@ -68,7 +77,9 @@ def _multiplier(mesh, exact, _):
 _NORMS = {
     "l2": _value,
     "h1_semi": lambda mesh, exact, _: _gradient(mesh, exact, None),
-    "h1": lambda mesh, exact, _: float(np.hypot(_value(mesh, exact, _), _gradient(mesh, exact, None))),
+    "h1": lambda mesh, exact, _: float(
+        np.hypot(_value(mesh, exact, _), _gradient(mesh, exact, None))
+    ),
     "energy": _gradient,
     "trace_l2": _trace,
     "multiplier_l2": _multiplier,
@@ -86,7 +97,8 @@ def _on_triangles(mesh):
 
 
 def _lost(values, measure, weights, basis):
-    """The squares of values (m, q) less their best fit on each cell, and of the values: two pairs as `square` gives.
+    """The squares of values (m, q) less their best fit on each cell, and of the values: two pairs
+    as `square` gives.
 
     `basis` (q, r) are the functions of the fit at the points of the rule.
     """

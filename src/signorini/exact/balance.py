@@ -1,13 +1,15 @@
-"""Whether an exact solution balances its load everywhere: that nothing acts on lines which the load does not know of.
+"""Whether an exact solution balances its load everywhere: that nothing acts on lines which the load
+does not know of.
 
 In the weak sense u is a solution if it is continuous and, on every triangle T inside the domain,
 
     int_T f + int_{boundary of T} k du/dn = 0.
 
-A kink of u is a load on a line. The f derived from u lacks it, and no point shows it: on both sides of the line the
-equation holds. The balance shows it, but is off by quadrature too, where f jumps or a derivative is unbounded. The
-two differ in size. Of a triangle of height h the kink leaves its jump times h, and quadrature o(h): so a triangle out
-of balance is cut into four, and the worst of them again, until only a kink can have left what is still there.
+A kink of u is a load on a line. The f derived from u lacks it, and no point shows it: on both sides
+of the line the equation holds. The balance shows it, but is off by quadrature too, where f jumps or
+a derivative is unbounded. The two differ in size. Of a triangle of height h the kink leaves its
+jump times h, and quadrature o(h): so a triangle out of balance is cut into four, and the worst of
+them again, until only a kink can have left what is still there.
 """
 
 from typing import NamedTuple
@@ -21,9 +23,12 @@ _MOST = 2**9  # triangles followed, the worst ones
 _SPLITS, _MOST_PIECES = 50, 2**14  # of edges, in halves
 _NEAR = 1.5  # longest edges of a triangle from its centroid to a singular point within which it is left out
 _INSIDE = triangle_rule(4)
-# Lobatto's rule of degree 5 on [0, 1]: halves tell a jump anywhere from the whole, which Gauss points, none of them
-# at an end, may not.
-_ON_EDGE = np.array([0.0, 0.5 - 0.5 / 5**0.5, 0.5 + 0.5 / 5**0.5, 1.0]), np.array([1.0, 5.0, 5.0, 1.0]) / 12.0
+# Lobatto's rule of degree 5 on [0, 1]: halves tell a jump anywhere from the whole, which Gauss
+# points, none of them at an end, may not.
+_ON_EDGE = (
+    np.array([0.0, 0.5 - 0.5 / 5**0.5, 0.5 + 0.5 / 5**0.5, 1.0]),
+    np.array([1.0, 5.0, 5.0, 1.0]) / 12.0,
+)
 # Points all over a triangle, barycentric, (3, 231).
 _LATTICE = np.array([(i, j, 20 - i - j) for i in range(21) for j in range(21 - i)]).T / 20
 
@@ -60,10 +65,10 @@ def scales(exact, cells):
     Returns
     -------
     Scales
-        With eps the distance of neighbouring coordinates in units of the extent, the last height is eps**(2/3), and
-        the tolerance 8 times its root, 5e-5 on the unit square. A line on which k jumps is found to within eps, which
-        is less than the tolerance of that height; and where u ~ s**1.5 beside a line or point, quadrature is off by
-        the root of the height.
+        With eps the distance of neighbouring coordinates in units of the extent, the last height is
+        eps**(2/3), and the tolerance 8 times its root, 5e-5 on the unit square. A line on which k
+        jumps is found to within eps, which is less than the tolerance of that height; and where u ~
+        s**1.5 beside a line or point, quadrature is off by the root of the height.
     """
     centroids = cells.mean(axis=1)
     u = exact.value(*centroids)
@@ -82,7 +87,8 @@ def check_balance(exact, f, cells, scales):
     f : callable
         The load, typed or derived, called with x and y.
     cells : ndarray, shape (2, 3, m)
-        Corners of triangles inside the domain, counterclockwise. Those at singular points are left out.
+        Corners of triangles inside the domain, counterclockwise. Those at singular points are left
+        out.
     scales : Scales
 
     Raises
@@ -113,7 +119,9 @@ def _worst_parts(exact, f, cells, scales):
     """Of the four parts of each triangle the one that is most out of balance, and by how much."""
     a, b, c = cells.transpose(1, 0, 2)
     ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
-    parts = np.stack([np.stack(part, axis=1) for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    parts = np.stack(
+        [np.stack(part, axis=1) for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    )
     flat = np.concatenate(list(parts), axis=-1)
     excess = _excess(exact, f, flat, scales).reshape(4, -1)
     worst = excess.argmax(axis=0)
@@ -121,19 +129,29 @@ def _worst_parts(exact, f, cells, scales):
 
 
 def _excess(exact, f, cells, scales, integrals=None):
-    """Imbalance over slope and height, or the jump of u over its variation, of each triangle: the larger, (m,)."""
+    """Imbalance over slope and height, or the jump of u over its variation, of each triangle: the
+    larger, (m,).
+    """
     start, end = cells, np.roll(cells, -1, axis=1)
     height = _height(cells)
-    outflow, rise = (integrals or _edge_integrals)(exact, start, end, scales.tolerance, height * scales.slope)
+    outflow, rise = (integrals or _edge_integrals)(
+        exact, start, end, scales.tolerance, height * scales.slope
+    )
     load = _area(cells) * (f(*_points(cells)) @ _INSIDE[1])
     u = exact.value(*cells)
     jump = np.abs(np.roll(u, -1, axis=0) - u - rise).max(axis=0)
-    size = scales.u + 1e-9 * float(np.max(np.abs(u), initial=0.0))  # the round-off of a large constant is no jump
-    return np.maximum(_share(np.abs(load + outflow.sum(axis=0)), scales.slope * height), _share(jump, size))
+    size = scales.u + 1e-9 * float(
+        np.max(np.abs(u), initial=0.0)
+    )  # the round-off of a large constant is no jump
+    return np.maximum(
+        _share(np.abs(load + outflow.sum(axis=0)), scales.slope * height), _share(jump, size)
+    )
 
 
 def _edge_integrals(exact, start, end, *_):
-    """Integrals of k du/dn and du/dt along edges, both of the shape (...) of start and end, (2, ...)."""
+    """Integrals of k du/dn and du/dt along edges, both of the shape (...) of start and end, (2,
+    ...).
+    """
     s, weights = _ON_EDGE
     along = end - start
     x, y = start[..., None] + s * along[..., None]
@@ -159,7 +177,12 @@ def _split_integrals(exact, start, end, tolerance, flux):
         for total, part in zip(totals, both, strict=True):
             total += np.bincount(edges[done], part[done], minlength=total.size)
         left = np.tile(~done, 2)
-        start, end, edges, whole = start[:, left], end[:, left], np.tile(edges, 2)[left], halves[:, left]
+        start, end, edges, whole = (
+            start[:, left],
+            end[:, left],
+            np.tile(edges, 2)[left],
+            halves[:, left],
+        )
         if not edges.size:
             break
     return totals.reshape(2, *shape)
@@ -198,7 +221,9 @@ def _flux(exact, x, y):
 
 
 def _near(cells, singular_points):
-    """Whether a singular point lies within `_NEAR` longest edges of a triangle's centroid, (m,) of bool."""
+    """Whether a singular point lies within `_NEAR` longest edges of a triangle's centroid, (m,) of
+    bool.
+    """
     edges = cells - np.roll(cells, 1, axis=1)
     reach = _NEAR * np.hypot(*edges).max(axis=0)
     x, y = cells.mean(axis=1)

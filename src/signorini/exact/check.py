@@ -19,14 +19,15 @@ def check_data(exact, data, samples, tolerance=TOLERANCE):
         Each typed, or derived; a typed obstacle is compared where the solution has one of its own.
     samples : Samples
     tolerance : float
-        Largest difference, relative to the largest value among the samples: of the datum or u for Dirichlet values
-        and obstacle, of g or the flux for g, of f or the flux over the body's extent for f.
+        Largest difference, relative to the largest value among the samples: of the datum or u for
+        Dirichlet values and obstacle, of g or the flux for g, of f or the flux over the body's
+        extent for f.
 
     Raises
     ------
     SceneError
-        Naming the datum, the point and both values; or the point where u >= obstacle, du/dnu >= 0 or
-        complementarity fails on the contact side, or where u or its flux jumps inside.
+        Naming the datum, the point and both values; or the point where u >= obstacle, du/dnu >= 0
+        or complementarity fails on the contact side, or where u or its flux jumps inside.
     FormulaError
         Where a value is not finite.
     """
@@ -35,7 +36,9 @@ def check_data(exact, data, samples, tolerance=TOLERANCE):
     u_size, slope = _largest(exact.value(*samples.cells)), measured.slope
     if data.f != derived.f:
         _compare("f", data.f, derived.f, inside, slope / extent, tolerance)
-    _compare("dirichlet", data.dirichlet, derived.dirichlet, samples.dirichlet[:2], u_size, tolerance)
+    _compare(
+        "dirichlet", data.dirichlet, derived.dirichlet, samples.dirichlet[:2], u_size, tolerance
+    )
     _compare("g", data.g, derived.g, samples.neumann, slope, tolerance)
     _compare("coefficient", data.coefficient, derived.coefficient, inside, 0.0, tolerance)
     if exact.obstacle is not None:
@@ -45,9 +48,11 @@ def check_data(exact, data, samples, tolerance=TOLERANCE):
 
 
 def check_contact(exact, obstacle, points, u_size, slope, tolerance=TOLERANCE):
-    """Check u >= obstacle, du/dnu >= 0 and their complementarity at points (x, y, nx, ny) of the contact side.
+    """Check u >= obstacle, du/dnu >= 0 and their complementarity at points (x, y, nx, ny) of the
+    contact side.
 
-    Gaps are measured in units of `u_size`, fluxes in units of `slope`. Raises SceneError at the first worst point.
+    Gaps are measured in units of `u_size`, fluxes in units of `slope`. Raises SceneError at the
+    first worst point.
     """
     x, y, nx, ny = points
     u, alpha, flux = exact.value(x, y), obstacle(x, y), exact.flux(x, y, nx, ny)

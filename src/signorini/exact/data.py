@@ -22,9 +22,11 @@ class Derived:
     constant : float or None
         Its value where it is known to be the same everywhere.
     needs_normal : bool
-        Whether it is called with the outward unit normal, as ``g(x, y, nx, ny)``: a flux, which depends on the side.
+        Whether it is called with the outward unit normal, as ``g(x, y, nx, ny)``: a flux, which
+        depends on the side.
     checked : bool
-        Whether the function itself raises where a value is not finite, so that no second look is needed.
+        Whether the function itself raises where a value is not finite, so that no second look is
+        needed.
     """
 
     field: str
@@ -34,7 +36,9 @@ class Derived:
     checked: bool = False
 
     def __call__(self, x, y, *normal, check=True):
-        """Evaluate at points, where FormulaError names the first value that is not finite, if they are checked."""
+        """Evaluate at points, where FormulaError names the first value that is not finite, if they
+        are checked.
+        """
         import numpy as np
 
         from signorini.formula.taylor import first_non_finite
@@ -51,7 +55,8 @@ class Derived:
 
 
 def derived_data(exact):
-    """Data under which `exact` is the solution: its load f, its flux g, its values, and its obstacle.
+    """Data under which `exact` is the solution: its load f, its flux g, its values, and its
+    obstacle.
 
     Parameters
     ----------
@@ -60,8 +65,8 @@ def derived_data(exact):
     Returns
     -------
     Data
-        Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The obstacle is the
-        solution's own, or zero where it has none.
+        Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The
+        obstacle is the solution's own, or zero where it has none.
     """
     checked = isinstance(exact, FormulaSolution)
     return Data(

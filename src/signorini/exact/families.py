@@ -1,4 +1,7 @@
-"""Named exact solutions with their parameters. Reading them imports no numpy: scenes are validated with it."""
+"""Named exact solutions with their parameters.
+
+Reading them imports no numpy: scenes are validated with it.
+"""
 
 import math
 from dataclasses import dataclass
@@ -19,14 +22,18 @@ class Parameter(NamedTuple):
     meaning: str = ""
 
     def read(self, given, field):
-        """Value of a number, or of a formula without variables such as 1/3; SceneError if out of range."""
+        """Value of a number, or of a formula without variables such as 1/3; SceneError if out of
+        range.
+        """
         formula = Formula(given, field)
         # Evaluating a formula imports numpy, which a plain number does not need.
         value = float(given) if isinstance(given, int | float) else formula.constant
         if value is None:
             raise SceneError(f"{field}: {given!r} is not constant; write a number")
         if value < self.least or (self.open and value == self.least):
-            raise SceneError(f"{field}: {value:g} is not valid; it must be {'>' if self.open else '>='} {self.least:g}")
+            raise SceneError(
+                f"{field}: {value:g} is not valid; it must be {'>' if self.open else '>='} {self.least:g}"
+            )
         return value
 
 
@@ -56,7 +63,8 @@ def family(name, parameters=None, field="truth"):
     name : str
         One of `FAMILIES`.
     parameters : dict, optional
-        Some of the family's parameters, each a number or a constant formula; the others have defaults.
+        Some of the family's parameters, each a number or a constant formula; the others have
+        defaults.
     field : str
         Where the scene says so, for error messages.
 
@@ -80,7 +88,9 @@ def family(name, parameters=None, field="truth"):
     known, given = FAMILIES[name].parameters, parameters or {}
     for key in given:
         if key not in known:
-            raise SceneError(f"{field}.parameters: {name} has no parameter {key[:60]!r}; {nearest(key, known)}")
+            raise SceneError(
+                f"{field}.parameters: {name} has no parameter {key[:60]!r}; {nearest(key, known)}"
+            )
     values = {
         key: parameter.read(given.get(key, parameter.default), f"{field}.parameters.{key}")
         for key, parameter in known.items()
@@ -94,8 +104,9 @@ def read_exact(truth, coefficient=None, field="truth"):
     Parameters
     ----------
     truth : dict
-        Either ``u``, a formula, with ``critical_points`` and ``singular_points``, lists of [x, y], where it has
-        some (singular ones default to the critical ones); or ``family``, a name, with ``parameters``.
+        Either ``u``, a formula, with ``critical_points`` and ``singular_points``, lists of [x, y],
+        where it has some (singular ones default to the critical ones); or ``family``, a name, with
+        ``parameters``.
     coefficient : Formula, optional
         Diffusion coefficient, 1 where not given.
     field : str
@@ -106,16 +117,23 @@ def read_exact(truth, coefficient=None, field="truth"):
     ExactSolution
     """
     exact = _read(truth, field)
-    return exact if coefficient is None or coefficient.constant == 1.0 else Diffused(exact, coefficient)
+    return (
+        exact
+        if coefficient is None or coefficient.constant == 1.0
+        else Diffused(exact, coefficient)
+    )
 
 
 def _read(truth, field):
     if ("u" in truth) == ("family" in truth):
-        raise SceneError(f"{field}: an exact solution needs either u, a formula, or family, a name; give one of them")
+        raise SceneError(
+            f"{field}: an exact solution needs either u, a formula, or family, a name; give one of them"
+        )
     if "family" in truth:
         return family(truth["family"], truth.get("parameters"), field)
     critical, singular = (
-        tuple((float(x), float(y)) for x, y in truth.get(key) or ()) for key in ("critical_points", "singular_points")
+        tuple((float(x), float(y)) for x, y in truth.get(key) or ())
+        for key in ("critical_points", "singular_points")
     )
     return FormulaSolution(Formula(truth["u"], f"{field}.u"), None, critical, singular or critical)
 
@@ -133,7 +151,9 @@ def _punch(**parameters):
 
 
 def _from_text(u, obstacle, critical_points=()):
-    return FormulaSolution(Formula(u, "truth.u"), Formula(obstacle, "truth.obstacle"), critical_points)
+    return FormulaSolution(
+        Formula(u, "truth.u"), Formula(obstacle, "truth.obstacle"), critical_points
+    )
 
 
 _BUMP = "0.1*sin(3*x)"
@@ -146,9 +166,12 @@ def _smooth(x0):
 
 def _biactive(left, right):
     if left > right:
-        raise SceneError(f"truth.parameters.left: {left:g} is not valid; it must be <= right = {right:g}")
+        raise SceneError(
+            f"truth.parameters.left: {left:g} is not valid; it must be <= right = {right:g}"
+        )
     u = f"({_BUMP} + 20*pos(x - ({right!r}))**3)*(1 - y**2) - y*(1 - y)*20*pos({left!r} - x)**3"
-    # No critical point is named: any point of the interval serves, and the mesh decides which one a solution takes.
+    # No critical point is named: any point of the interval serves, and the mesh decides which one a
+    # solution takes.
     return _from_text(u, _BUMP)
 
 
@@ -162,7 +185,10 @@ def _patch(alpha):
     return _from_text(f"({alpha!r})*(1 - y)", repr(alpha))
 
 
-_PLACE = {"x0": Parameter(0.0, meaning="abscissa"), "y0": Parameter(0.0, meaning="ordinate of the contact side")}
+_PLACE = {
+    "x0": Parameter(0.0, meaning="abscissa"),
+    "y0": Parameter(0.0, meaning="ordinate of the contact side"),
+}
 
 FAMILIES = {
     "corner": Family(
@@ -182,7 +208,10 @@ FAMILIES = {
     ),
     "biactive": Family(
         "u = obstacle and du/dnu = 0 for left <= x <= right on y = 0, obstacle 0.1 sin 3x",
-        {"left": Parameter(0.3, meaning="end of du/dnu > 0"), "right": Parameter(0.7, meaning="end of contact")},
+        {
+            "left": Parameter(0.3, meaning="end of du/dnu > 0"),
+            "right": Parameter(0.7, meaning="end of contact"),
+        },
         _biactive,
     ),
     "uniform-load": Family(

@@ -1,8 +1,9 @@
 """The two harmonic families, in closed form: Re z**(3/2), and the punch of half width a.
 
-As formulas both would lose their gradient at the critical points, and their load, which is zero, to round-off. The
-body lies above the line y = y0. A point below it, as round-off may leave one, counts as its mirror image seen from
-above; so does y = -0.0, which would put a branch cut on the wrong side.
+As formulas both would lose their gradient at the critical points, and their load, which is zero, to
+round-off. The body lies above the line y = y0. A point below it, as round-off may leave one, counts
+as its mirror image seen from above; so does y = -0.0, which would put a branch cut on the wrong
+side.
 """
 
 from dataclasses import dataclass
@@ -26,8 +27,8 @@ def square_root(x, y):
 class Harmonic(ExactSolution):
     """A solution without load above the line y = y0; obstacle zero.
 
-    A family says by `_factors` what its value and its gradient have in common, and by `_value` and `_gradient` how they
-    follow from that.
+    A family says by `_factors` what its value and its gradient have in common, and by `_value` and
+    `_gradient` how they follow from that.
     """
 
     obstacle = Formula("0", "obstacle")
@@ -54,7 +55,8 @@ class Harmonic(ExactSolution):
 
 @dataclass(frozen=True)
 class Corner(Harmonic):
-    """u = amplitude r**(3/2) cos(3 theta/2) about (x0, y0): the generic singularity of a critical point.
+    """u = amplitude r**(3/2) cos(3 theta/2) about (x0, y0): the generic singularity of a critical
+    point.
 
     Contact for x <= x0, where du/dnu = 1.5 amplitude sqrt(r); no contact beyond.
     """
@@ -82,7 +84,8 @@ class Corner(Harmonic):
 
 @dataclass(frozen=True)
 class Punch(Harmonic):
-    """u = Re 1/2 (z s - a**2 log((z + s)/a)), z = x - x0 + i (y - y0), s = sqrt(z**2 - a**2) ~ z, a the half width.
+    """u = Re 1/2 (z s - a**2 log((z + s)/a)), z = x - x0 + i (y - y0), s = sqrt(z**2 - a**2) ~ z, a
+    the half width.
 
     Contact for \\|x - x0\\| <= a, where du/dnu = sqrt(a**2 - (x - x0)**2); no contact beyond.
 
@@ -92,8 +95,8 @@ class Punch(Harmonic):
 
         u = a**2/2 (t cosh(xi) - xi - 2 t cosh(xi) sin(eta)**2),    du/dx - i du/dy = s.
 
-    As Kahan (1987) computes arcosh, t = Re conj(sqrt(z/a - 1)) sqrt(z/a + 1) is a sum of terms >= 0: exactly zero
-    on the contact side, and free of cancellation near its ends.
+    As Kahan (1987) computes arcosh, t = Re conj(sqrt(z/a - 1)) sqrt(z/a + 1) is a sum of terms >=
+    0: exactly zero on the contact side, and free of cancellation near its ends.
     """
 
     half_width: float

@@ -1,7 +1,9 @@
-"""Where an exact solution is looked at: triangles that cover the domain, and points close by each other on its sides.
+"""Where an exact solution is looked at: triangles that cover the domain, and points close by each
+other on its sides.
 
-How many there are does not depend on the levels of a scene. The triangles are shaken, so that lines along which a
-formula changes do not run along their edges, and stay a little clear of the boundary, where a solution may be singular.
+How many there are does not depend on the levels of a scene. The triangles are shaken, so that lines
+along which a formula changes do not run along their edges, and stay a little clear of the boundary,
+where a solution may be singular.
 """
 
 from dataclasses import dataclass
@@ -19,7 +21,10 @@ from signorini.mesh.patterns import perturbed
 
 FEWEST, MOST = 2**11, 2**15  # triangles; a line across a square meets some 60 of the fewest
 ON_SIDES = 2**12  # points on the facets of one label: four or more in any 1/1000 of them
-_SHAKEN, _CLEAR = 0.7, 1e-3  # moves in units of `perturbed`, and the gap to neighbours in units of a triangle
+_SHAKEN, _CLEAR = (
+    0.7,
+    1e-3,
+)  # moves in units of `perturbed`, and the gap to neighbours in units of a triangle
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +57,8 @@ class Samples:
         ----------
         mesh : Grid or Triangulation
         boundary : dict, optional
-            The section ``boundary`` of a scene where it is by formula: then not facets have a label but points.
+            The section ``boundary`` of a scene where it is by formula: then not facets have a label
+            but points.
         """
         while mesh.number_of_triangles < FEWEST:
             mesh = _finer(mesh)
@@ -61,7 +67,9 @@ class Samples:
 
     @classmethod
     def of_domain(cls, domain, coarsest):
-        """Samples of a `Rectangle`, the same for all its levels and patterns, or of a `Refined`, from its root."""
+        """Samples of a `Rectangle`, the same for all its levels and patterns, or of a `Refined`,
+        from its root.
+        """
         boundary = domain.boundary if domain.boundary and by_formula(domain.boundary) else None
         if not isinstance(domain, Rectangle):
             return cls.of(domain.level(coarsest), boundary)
@@ -98,9 +106,13 @@ def _counterclockwise(mesh):
 
 
 def _on_side(mesh, label):
-    """x, y, nx, ny of points in equal distances on the facets that carry a label; three on each at least."""
+    """x, y, nx, ny of points in equal distances on the facets that carry a label; three on each at
+    least.
+    """
     side = find_side(mesh, label)
-    counts = np.maximum(3, np.ceil(ON_SIDES * side.length / max(side.length.sum(), np.finfo(float).tiny))).astype(int)
+    counts = np.maximum(
+        3, np.ceil(ON_SIDES * side.length / max(side.length.sum(), np.finfo(float).tiny))
+    ).astype(int)
     of = np.repeat(np.arange(counts.size), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     s = (np.arange(of.size) - first + 0.5) / counts[of]
@@ -111,8 +123,14 @@ def _on_side(mesh, label):
 def _labelled(sides, boundary):
     """The points of all sides together, sorted by the formula that is positive at them."""
     x, y, nx, ny = np.concatenate(list(sides), axis=1)
-    formulas = {label: Formula(text, f"boundary.{label}") for label, text in boundary.items() if text != "rest"}
+    formulas = {
+        label: Formula(text, f"boundary.{label}")
+        for label, text in boundary.items()
+        if text != "rest"
+    }
     positive = {label: formula(x, y) > 0.0 for label, formula in formulas.items()}
     rest = ~np.any([np.zeros(x.shape, dtype=bool), *positive.values()], axis=0)
-    found = {label: positive.get(label, rest if label in boundary else ~rest & False) for label in LABELS}
+    found = {
+        label: positive.get(label, rest if label in boundary else ~rest & False) for label in LABELS
+    }
     return {label: (x[at], y[at], nx[at], ny[at]) for label, at in found.items()}

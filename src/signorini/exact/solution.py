@@ -7,10 +7,11 @@ from signorini.formula import Formula
 
 
 class ExactSolution(ABC):
-    """A function u that solves a Signorini problem, equation (2.2) of the paper, with the load -Laplace u.
+    """A function u that solves a Signorini problem, equation (2.2) of the paper, with the load
+    -Laplace u.
 
-    Subclasses give `value`, `gradient` and `load`. All take coordinates in the user's unit of length, broadcast
-    against each other, and return new arrays of the broadcast shape.
+    Subclasses give `value`, `gradient` and `load`. All take coordinates in the user's unit of
+    length, broadcast against each other, and return new arrays of the broadcast shape.
 
     Attributes
     ----------
@@ -56,7 +57,8 @@ class ExactSolution(ABC):
 
 @dataclass(frozen=True)
 class FormulaSolution(ExactSolution):
-    """An exact solution from a formula; gradient and Laplacian are derived from it exactly, by forward mode.
+    """An exact solution from a formula; gradient and Laplacian are derived from it exactly, by
+    forward mode.
 
     Parameters
     ----------

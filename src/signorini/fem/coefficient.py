@@ -1,4 +1,6 @@
-"""The diffusion coefficient on a mesh: a formula taken at centroids, or a number for each subdomain of a mesh file."""
+"""The diffusion coefficient on a mesh: a formula taken at centroids, or a number for each subdomain
+of a mesh file.
+"""
 
 import numpy as np
 
@@ -23,7 +25,8 @@ def coefficient_on(mesh, coefficient):
     Raises
     ------
     FormulaError
-        If the formula's value at a centroid is not one of `COEFFICIENTS`: positive, and not extreme.
+        If the formula's value at a centroid is not one of `COEFFICIENTS`: positive, and not
+        extreme.
     MeshError
         If the mesh has no subdomain of a name, or a triangle is in none that is named, or in two.
     """
@@ -52,10 +55,15 @@ def _at_centroids(mesh, formula):
 
 def _by_subdomain(mesh, coefficient):
     known, field = getattr(mesh, "subdomains", {}), coefficient.field
-    values, times = np.zeros(mesh.number_of_triangles), np.zeros(mesh.number_of_triangles, dtype=int)
+    values, times = (
+        np.zeros(mesh.number_of_triangles),
+        np.zeros(mesh.number_of_triangles, dtype=int),
+    )
     for name, number in coefficient.numbers.items():
         if name not in known:
-            raise MeshError(f"{field}.{name[:60]}: the mesh has no such subdomain; {nearest(name, known or ['none'])}")
+            raise MeshError(
+                f"{field}.{name[:60]}: the mesh has no such subdomain; {nearest(name, known or ['none'])}"
+            )
         values[known[name]] = number
         times[known[name]] += 1
     for wrong, complaint in ((times == 0, _missing), (times > 1, _double)):
@@ -63,12 +71,18 @@ def _by_subdomain(mesh, coefficient):
             k = int(np.argmax(wrong))
             x, y = mesh.p[:, mesh.t[:, k]].mean(axis=1)
             around = [name for name, members in known.items() if k in members]
-            raise MeshError(f"{field}: triangle {k} at ({x:.6g}, {y:.6g}) {complaint(coefficient, around)}")
+            raise MeshError(
+                f"{field}: triangle {k} at ({x:.6g}, {y:.6g}) {complaint(coefficient, around)}"
+            )
     return values
 
 
 def _missing(coefficient, around):
-    remedy = f"add a number for {' or '.join(around)}" if around else "put it into a group of the mesh file"
+    remedy = (
+        f"add a number for {' or '.join(around)}"
+        if around
+        else "put it into a group of the mesh file"
+    )
     return f"has no coefficient; {remedy}"
 
 

@@ -1,7 +1,8 @@
-"""What happens on the contact part: the trace of u, the contact force, and the critical points where u starts to bind.
+"""What happens on the contact part: the trace of u, the contact force, and the critical points
+where u starts to bind.
 
-The part may have several components, and each may turn corners; they are walked as `mesh.paths` says, and the arc
-length runs on from one to the next.
+The part may have several components, and each may turn corners; they are walked as `mesh.paths`
+says, and the arc length runs on from one to the next.
 """
 
 from dataclasses import dataclass
@@ -19,15 +20,16 @@ class ContactLine:
     Parameters
     ----------
     which : ndarray of int, shape (m,)
-        Positions in ``solution.contact``. A vertex where three or more facets of the part meet comes once for each
-        path that ends there.
+        Positions in ``solution.contact``. A vertex where three or more facets of the part meet
+        comes once for each path that ends there.
     component : ndarray of int, shape (m,)
         Counted from 1.
     s : ndarray, shape (m,)
         Arc length, unit of length.
     points : ndarray, shape (2, m)
     critical : ndarray, shape (m,)
-        Arc length of the critical point between a dof and the next of its component; NaN where there is none.
+        Arc length of the critical point between a dof and the next of its component; NaN where
+        there is none.
     critical_points : ndarray, shape (2, c)
     """
 
@@ -39,7 +41,14 @@ class ContactLine:
     critical_points: np.ndarray
 
 
-_NOTHING = (np.zeros(0, int), np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), np.zeros(0), np.zeros((2, 0)))
+_NOTHING = (
+    np.zeros(0, int),
+    np.zeros(0, int),
+    np.zeros(0),
+    np.zeros((2, 0)),
+    np.zeros(0),
+    np.zeros((2, 0)),
+)
 
 # The degrees of freedom on a path, and the first of the marks that they sit on, every second one.
 _PLACES = {"P1": ("vertices", 0), "CR": ("facets", 1)}
@@ -63,9 +72,10 @@ def contact_line(mesh, solution):
     Returns
     -------
     dict
-        ``contact_x`` (nc,), unit of length: on a single side parallel to an axis the coordinate along it, on any
-        other contact part the arc length; ``contact_u`` and ``contact_obstacle`` (nc,); ``critical_points`` (k, 2),
-        between neighbouring nodes of which one binds: known to half a mesh width.
+        ``contact_x`` (nc,), unit of length: on a single side parallel to an axis the coordinate
+        along it, on any other contact part the arc length; ``contact_u`` and ``contact_obstacle``
+        (nc,); ``critical_points`` (k, 2), between neighbouring nodes of which one binds: known to
+        half a mesh width.
     """
     line = _ordered(mesh, solution.element, solution.contact, solution.active)
     return {
@@ -95,10 +105,11 @@ def contact_rows(mesh, solution):
     Returns
     -------
     list of dict
-        A row for each contact dof in the order of the line: ``element``, ``n``; ``component``, counted from 1; arc
-        length ``s``, ``x`` and ``y``, unit of length; ``u`` and ``obstacle``; ``flux``, see `contact_flux`;
-        ``binding``, 1 or 0; ``critical``, the arc length of the critical point between this row and the next of its
-        component (in a closed one the first follows the last), or None. Empty without contact part.
+        A row for each contact dof in the order of the line: ``element``, ``n``; ``component``,
+        counted from 1; arc length ``s``, ``x`` and ``y``, unit of length; ``u`` and ``obstacle``;
+        ``flux``, see `contact_flux`; ``binding``, 1 or 0; ``critical``, the arc length of the
+        critical point between this row and the next of its component (in a closed one the first
+        follows the last), or None. Empty without contact part.
     """
     line = _ordered(mesh, solution.element, solution.contact, solution.active)
     flux = contact_flux(mesh, solution.element, solution.contact, solution.multiplier)
@@ -133,8 +144,8 @@ def contact_flux(mesh, element, contact, multiplier):
     Returns
     -------
     ndarray, shape (nc,)
-        The force over the length on which the dof holds: for CR its facet, for P1 the adjacent halves of the contact
-        facets that meet there. Unit of k u per length.
+        The force over the length on which the dof holds: for CR its facet, for P1 the adjacent
+        halves of the contact facets that meet there. Unit of k u per length.
     """
     length = np.zeros(find_element(element).size(mesh))
     for path in boundary_paths(mesh, "contact"):
@@ -155,15 +166,19 @@ def binding_pieces(mesh, solution):
     Returns
     -------
     ndarray, shape (m, 2, 2)
-        Start (x, y) and end (x, y) of each piece in the order of the line: whole facets, and the halves of those
-        whose two dofs differ. A dof under a Dirichlet condition leaves its half to the other.
+        Start (x, y) and end (x, y) of each piece in the order of the line: whole facets, and the
+        halves of those whose two dofs differ. A dof under a Dirichlet condition leaves its half to
+        the other.
     """
     state = np.full(find_element(solution.element).size(mesh), np.nan)
     state[solution.contact] = solution.active
     pieces = [np.zeros((0, 2, 2))]
     for path in boundary_paths(mesh, "contact"):
         first, second = (state[dofs] for dofs in _HALVES[solution.element](path))
-        first, second = np.where(np.isnan(first), second, first) == 1, np.where(np.isnan(second), first, second) == 1
+        first, second = (
+            np.where(np.isnan(first), second, first) == 1,
+            np.where(np.isnan(second), first, second) == 1,
+        )
         marks = path.marks
         start = np.where(first, marks[:, :-1:2], marks[:, 1::2])
         end = np.where(second, marks[:, 2::2], marks[:, 1::2])
@@ -172,7 +187,8 @@ def binding_pieces(mesh, solution):
 
 
 def critical_points(mesh, element, contact, active):
-    """The critical points of a solution, where of two neighbouring contact dofs one binds: midway, shape (2, k).
+    """The critical points of a solution, where of two neighbouring contact dofs one binds: midway,
+    shape (2, k).
 
     `contact` are the contact dofs of the `element`, `active` says which of them bind.
     """
@@ -204,11 +220,19 @@ def _ordered_path(path, element, active, position, component, start):
     critical = np.full(at.size, np.nan)
     critical[turns] = s[between]
     at = at[known]
-    return which[known], np.full(at.size, component), s[at], marks[:, at], critical[known], marks[:, between]
+    return (
+        which[known],
+        np.full(at.size, component),
+        s[at],
+        marks[:, at],
+        critical[known],
+        marks[:, between],
+    )
 
 
 def sampled_surface(grid, u, cells):
-    """A P1 function at every k-th vertex of a grid, k the smallest that leaves at most `cells` cells a side.
+    """A P1 function at every k-th vertex of a grid, k the smallest that leaves at most `cells`
+    cells a side.
 
     Returns
     -------

@@ -47,7 +47,9 @@ class _P1(Element):
         return mesh.boundary_vertices(label)
 
     def boundary_lengths(self, mesh, label):
-        """What length of the part `label` of the boundary each degree of freedom stands for, shape (ndof,)."""
+        """What length of the part `label` of the boundary each degree of freedom stands for, shape
+        (ndof,).
+        """
         ends, lengths = _facets_of(mesh, label)
         return np.bincount(np.ravel(ends), np.tile(0.5 * lengths, 2), minlength=self.size(mesh))
 
@@ -80,8 +82,12 @@ class _CR(Element):
         return mesh.boundary_facets(label)
 
     def boundary_lengths(self, mesh, label):
-        """What length of the part `label` of the boundary each degree of freedom stands for, shape (ndof,)."""
-        return np.bincount(mesh.boundary_facets(label), _facets_of(mesh, label)[1], minlength=self.size(mesh))
+        """What length of the part `label` of the boundary each degree of freedom stands for, shape
+        (ndof,).
+        """
+        return np.bincount(
+            mesh.boundary_facets(label), _facets_of(mesh, label)[1], minlength=self.size(mesh)
+        )
 
     def nodes(self, mesh, dofs):
         """Coordinates of degrees of freedom, shape (2, len(dofs)): midpoints of facets."""
@@ -102,10 +108,13 @@ def _facets_of(mesh, label):
     return ends, np.hypot(*(end - start))
 
 
-# The CR function of the facet (i, j) is 1 at its two ends and -1 at the opposite vertex; facets run 01, 12, 02.
+# The CR function of the facet (i, j) is 1 at its two ends and -1 at the opposite vertex; facets run
+# 01, 12, 02.
 ELEMENTS = {
     "P1": _P1("P1", "conforming P1", np.eye(3)),
-    "CR": _CR("CR", "Crouzeix-Raviart", np.array([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])),
+    "CR": _CR(
+        "CR", "Crouzeix-Raviart", np.array([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])
+    ),
 }
 
 

@@ -1,5 +1,5 @@
-"""Quadrature points in the cells of a grid, by the lines on which they lie: a factor that depends on one coordinate
-alone is then computed once for each line, and never for each point."""
+"""Quadrature points in the cells of a grid, by the lines on which they lie: a factor that depends
+on one coordinate alone is then computed once for each line, and never for each point."""
 
 import numpy as np
 
@@ -37,15 +37,21 @@ def points_on_lines(grid, corners, points, first, last):
         size = lines.shape[1] * grid.nx
         for some in blocks(len(lines), max(1, _POINTS_AT_ONCE // (size * (last - first)))):
             which = lines[some]
-            along, up = (one[which[:, :1] if axis == shared else which] for axis, one in enumerate((i, j)))
+            along, up = (
+                one[which[:, :1] if axis == shared else which] for axis, one in enumerate((i, j))
+            )
             x = grid.x[:-1] + along[:, :, None, None] * hx
             for rows in blocks(last - first, max(1, _POINTS_AT_ONCE // size)):
                 yield which, rows, x, grid.y[first:last][rows, None] + up[:, :, None, None] * hy
 
 
 def _lines(place):
-    """Points (2, q) by the coordinate with fewer values: arrays (l, m) of lines with m points each, and its axis."""
-    distinct, which = zip(*(np.unique(np.round(one, _DIGITS), return_inverse=True) for one in place), strict=True)
+    """Points (2, q) by the coordinate with fewer values: arrays (l, m) of lines with m points each,
+    and its axis.
+    """
+    distinct, which = zip(
+        *(np.unique(np.round(one, _DIGITS), return_inverse=True) for one in place), strict=True
+    )
     shared = int(distinct[1].size < distinct[0].size)
     lines = [np.flatnonzero(which[shared] == line) for line in range(distinct[shared].size)]
     for size in dict.fromkeys(line.size for line in lines):
@@ -53,7 +59,9 @@ def _lines(place):
 
 
 def weighted(weights, values):
-    """Sums over points, (m, ...) with weights (k, m): (k, ...); of one point a product, which is faster than a sum."""
+    """Sums over points, (m, ...) with weights (k, m): (k, ...); of one point a product, which is
+    faster than a sum.
+    """
     if len(values) == 1:
         return weights.reshape(-1, *[1] * (values.ndim - 1)) * values
     return np.tensordot(weights, values, axes=1)

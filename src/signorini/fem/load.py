@@ -1,4 +1,6 @@
-"""The load chi(v) = int_Omega f v + int_{Gamma_N} g v of equation (2.1), by a chosen quadrature rule."""
+"""The load chi(v) = int_Omega f v + int_{Gamma_N} g v of equation (2.1), by a chosen quadrature
+rule.
+"""
 
 import numpy as np
 
@@ -22,8 +24,9 @@ def assemble_load(mesh, element, f, g, rule):
     f, g : Formula
         Volume force, and flux on the Neumann part.
     rule : str or int
-        Quadrature rule on triangles, see `quadrature.triangle_rule`; or ``"nodal"``: f is replaced by its interpolant
-        in the element's own nodes (for CR this is the rule ``"midpoints"``). Boundary integrals of g use Gauss points.
+        Quadrature rule on triangles, see `quadrature.triangle_rule`; or ``"nodal"``: f is replaced
+        by its interpolant in the element's own nodes (for CR this is the rule ``"midpoints"``).
+        Boundary integrals of g use Gauss points.
 
     Returns
     -------
@@ -42,7 +45,9 @@ def assemble_load(mesh, element, f, g, rule):
 
 
 def _weighted(element, rule, number_of_triangles):
-    """Points where f is asked for, (3, q), and what its value there weighs for each shape function, (3, q)."""
+    """Points where f is asked for, (3, q), and what its value there weighs for each shape function,
+    (3, q).
+    """
     if rule == "nodal":
         points, weights = triangle_rule("midpoints")  # exact for products of two shape functions
         shape = element.shape(points)
@@ -55,7 +60,9 @@ def _on_grid(grid, element, f, points, shape):
     """A block of rows of cells at a time."""
     b = np.zeros(element.size(grid))
     for first, last in grid.row_blocks():
-        parts = [_cell_loads(grid, f, points, shape, corners, first, last) for corners in grid.corners]
+        parts = [
+            _cell_loads(grid, f, points, shape, corners, first, last) for corners in grid.corners
+        ]
         if element.name == "P1":
             _add_at_vertices(b.reshape(grid.ny + 1, grid.nx + 1)[first : last + 1], grid, parts)
         else:
@@ -64,11 +71,15 @@ def _on_grid(grid, element, f, points, shape):
 
 
 def _cell_loads(grid, f, points, shape, corners, first, last):
-    """What one of the two triangles of each cell adds to its three dofs, shape (3, last - first, nx)."""
+    """What one of the two triangles of each cell adds to its three dofs, shape (3, last - first,
+    nx).
+    """
     local = np.zeros((3, last - first, grid.nx))
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
         values = f(x, y)
-        local[:, rows] += weighted(grid.area * shape[:, which.ravel()], values.reshape(-1, *values.shape[2:]))
+        local[:, rows] += weighted(
+            grid.area * shape[:, which.ravel()], values.reshape(-1, *values.shape[2:])
+        )
     return local
 
 
@@ -80,7 +91,11 @@ def _add_at_vertices(rows, grid, parts):
 
 def _add_at_edges(b, grid, first, parts):
     count = parts[0].shape[1]
-    edges = np.zeros((count + 1, grid.nx)), np.zeros((count, grid.nx + 1)), np.zeros((count, grid.nx))
+    edges = (
+        np.zeros((count + 1, grid.nx)),
+        np.zeros((count, grid.nx + 1)),
+        np.zeros((count, grid.nx)),
+    )
     for kind, local in enumerate(parts):
         for target, part in zip(_edge_targets(grid, edges, kind), local, strict=True):
             target += part
@@ -99,17 +114,23 @@ def _edge_targets(grid, edges, kind):
 
 
 def _on_triangles(mesh, element, f, points, shape):
-    """All points of a block of triangles at a time, and one product with the weighted shape functions."""
+    """All points of a block of triangles at a time, and one product with the weighted shape
+    functions.
+    """
     local = np.empty((3, mesh.number_of_triangles))
     for cells in blocks(mesh.number_of_triangles, max(_POINTS_AT_ONCE // points.shape[1], 1)):
         corners = mesh.corners(cells)
         x, y = points.T @ corners
         np.multiply(shape @ f(x, y), triangle_areas(corners), out=local[:, cells])
-    return np.bincount(element.triangle_dofs(mesh).ravel(), local.ravel(), minlength=element.size(mesh))
+    return np.bincount(
+        element.triangle_dofs(mesh).ravel(), local.ravel(), minlength=element.size(mesh)
+    )
 
 
 def _add_flux(b, mesh, element, g):
-    """Add int g phi over the Neumann facets: of CR, all three functions of the triangle behind each facet."""
+    """Add int g phi over the Neumann facets: of CR, all three functions of the triangle behind each
+    facet.
+    """
     facets = mesh.boundary_facets("neumann")
     if not facets.size:
         return
@@ -122,7 +143,11 @@ def _add_flux(b, mesh, element, g):
         start, end = mesh.points(t[i, behind]), mesh.points(t[j, behind])
         along = end - start
         length = np.hypot(*along)
-        normal = _outward(along, mesh.points(t[3 - i - j, behind]) - start, length) if needs_normal else ()
+        normal = (
+            _outward(along, mesh.points(t[3 - i - j, behind]) - start, length)
+            if needs_normal
+            else ()
+        )
         points = (1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]
         for point, values in zip(s, weights[:, None] * length * g(*points, *normal), strict=True):
             barycentric = np.zeros((3, 1))
@@ -132,6 +157,8 @@ def _add_flux(b, mesh, element, g):
 
 
 def _outward(along, inward, length):
-    """Unit normal of facets with direction `along`, pointing away from `inward`; all of shape (2, k)."""
+    """Unit normal of facets with direction `along`, pointing away from `inward`; all of shape (2,
+    k).
+    """
     normal = np.stack([along[1], -along[0]]) / length
     return np.where((normal * inward).sum(axis=0) > 0.0, -normal, normal)

@@ -1,4 +1,6 @@
-"""From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on contact dofs."""
+"""From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on
+contact dofs.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -50,7 +52,9 @@ class Problem:
 
     @cached_property
     def A(self):
-        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when first asked for."""
+        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when
+        first asked for.
+        """
         from signorini.fem.stiffness import assemble_stiffness
 
         return assemble_stiffness(self.mesh, find_element(self.element), self.coefficient)
@@ -64,7 +68,9 @@ class Problem:
 
     @cached_property
     def grid(self):
-        """The mesh where a stencil is the whole matrix: a uniform `Grid` with coefficient 1; else None."""
+        """The mesh where a stencil is the whole matrix: a uniform `Grid` with coefficient 1; else
+        None.
+        """
         return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
 
     def apply(self, u):
@@ -75,7 +81,9 @@ class Problem:
 
     @property
     def contact_points(self):
-        """Where the contact dofs are, shape (2, nc), unit of length: vertices for P1, midpoints of facets for CR."""
+        """Where the contact dofs are, shape (2, nc), unit of length: vertices for P1, midpoints of
+        facets for CR.
+        """
         return find_element(self.element).nodes(self.mesh, self.contact)
 
     def contact_fluxes(self, u):
@@ -90,8 +98,8 @@ class Problem:
         Returns
         -------
         force, fluxes, sizes : ndarray, shape (nc,)
-            (A u) at the contact dofs, the sum of the sizes of its differences, and (|A| |u|) there, what rounding of u
-            is relative to; unit of the load.
+            (A u) at the contact dofs, the sum of the sizes of its differences, and (|A| |u|) there,
+            what rounding of u is relative to; unit of the load.
         """
         from signorini.fem.residual import residual_and_fluxes
 
@@ -105,7 +113,8 @@ class Problem:
 
     @cached_property
     def contact_lengths(self):
-        """The length of the contact part that each contact dof stands for, shape (nc,), unit of length.
+        """The length of the contact part that each contact dof stands for, shape (nc,), unit of
+        length.
 
         For CR that of its facet, for P1 half of each contact facet that meets there.
         """
@@ -143,24 +152,32 @@ def discretize(scene, element, n):
     statement = getattr(scene, "problem", scene)
     find_element(element)
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
-        raise SceneError(f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8")
+        raise SceneError(
+            f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8"
+        )
     statement.check()
     return discretize_on(statement.triangulations.level(int(n)), element, statement)
 
 
 def discretize_on(mesh, element, statement):
-    """Discretise a problem statement on a given triangulation, whatever its own domain says; see `discretize`.
+    """Discretise a problem statement on a given triangulation, whatever its own domain says; see
+    `discretize`.
 
-    The mesh's labels hold; of the statement, the data and the load quadrature alone are used, and nothing is checked
-    against an exact truth.
+    The mesh's labels hold; of the statement, the data and the load quadrature alone are used, and
+    nothing is checked against an exact truth.
     """
     kind = find_element(element)
     data = statement.data
     _check_poles(mesh, data.f)
     fixed = kind.boundary_dofs(mesh, "dirichlet")
     contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
-    lower, fixed_values = data.obstacle(*kind.nodes(mesh, contact)), data.dirichlet(*kind.nodes(mesh, fixed))
-    _check_corners(mesh, data, max(np.max(np.abs(values), initial=0.0) for values in (lower, fixed_values)))
+    lower, fixed_values = (
+        data.obstacle(*kind.nodes(mesh, contact)),
+        data.dirichlet(*kind.nodes(mesh, fixed)),
+    )
+    _check_corners(
+        mesh, data, max(np.max(np.abs(values), initial=0.0) for values in (lower, fixed_values))
+    )
     return Problem(
         element=element,
         mesh=mesh,
@@ -174,7 +191,9 @@ def discretize_on(mesh, element, statement):
 
 
 def _check_poles(mesh, f):
-    """Evaluate f where quadrature may not, at vertices and edge midpoints of coarse meshes: poles tend to be there."""
+    """Evaluate f where quadrature may not, at vertices and edge midpoints of coarse meshes: poles
+    tend to be there.
+    """
     if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
         f(*mesh.p)
         a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
@@ -182,10 +201,14 @@ def _check_poles(mesh, f):
 
 
 def _check_corners(mesh, data, size):
-    """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K is empty."""
+    """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K
+    is empty.
+    """
     shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
     x, y = mesh.points(shared)
-    obstacle, dirichlet = (formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet))
+    obstacle, dirichlet = (
+        formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet)
+    )
     above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
     if above.any():
         k = int(np.flatnonzero(above)[0])

@@ -9,9 +9,10 @@ _MIDPOINTS = (np.array([[0.5, 0.0, 0.5], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5]]), np.
 _VERTICES = (np.eye(3), np.full(3, 1 / 3))
 _NAMED = {"centroid": _CENTROID, "midpoints": _MIDPOINTS, "vertices": _VERTICES}
 
-# "exact" integrates smooth loads to round-off: few triangles are large ones and get the high degree. On 2**16 triangles
-# of the unit square the lower one, with a fifth of the points, changes the load by less than 1e-14 of its largest entry
-# for sin(2 pi x) or exp(10 x y), and by 2e-13 for sin(200 x + 100 y).
+# "exact" integrates smooth loads to round-off: few triangles are large ones and get the high
+# degree. On 2**16 triangles of the unit square the lower one, with a fifth of the points, changes
+# the load by less than 1e-14 of its largest entry for sin(2 pi x) or exp(10 x y), and by 2e-13 for
+# sin(200 x + 100 y).
 _EXACT_DEGREE = 23
 _EXACT_DEGREE_FINE = 9
 _FINE = 2**16
@@ -23,7 +24,8 @@ def triangle_rule(rule, number_of_triangles=0):
     Parameters
     ----------
     rule : str or int
-        ``"centroid"``, ``"midpoints"``, ``"vertices"``, ``"exact"``, or the polynomial degree to be exact for.
+        ``"centroid"``, ``"midpoints"``, ``"vertices"``, ``"exact"``, or the polynomial degree to be
+        exact for.
     number_of_triangles : int
         Lets ``"exact"`` take degree 9 instead of 23 from 65536 triangles on, which are small.
 
@@ -44,12 +46,16 @@ def triangle_rule(rule, number_of_triangles=0):
     if rule == "exact":
         rule = _EXACT_DEGREE if number_of_triangles < _FINE else _EXACT_DEGREE_FINE
     if not isinstance(rule, int) or rule < 0:
-        raise SceneError(f"unknown quadrature rule {rule!r}; known: {', '.join(_NAMED)}, exact, or a polynomial degree")
+        raise SceneError(
+            f"unknown quadrature rule {rule!r}; known: {', '.join(_NAMED)}, exact, or a polynomial degree"
+        )
     return _collapsed_gauss(rule)
 
 
 def _collapsed_gauss(degree):
-    """Gauss-Legendre product rule on the square, collapsed to the triangle (Stroud 1971), exact to `degree`."""
+    """Gauss-Legendre product rule on the square, collapsed to the triangle (Stroud 1971), exact to
+    `degree`.
+    """
     s, ws = interval_rule(degree + 1)
     t, wt = interval_rule(degree)
     s, t = (a.ravel() for a in np.meshgrid(s, t))

@@ -1,8 +1,8 @@
 """The residual of a stiffness matrix by differences of u, and how far rounding can move it.
 
-Rows of a stiffness matrix sum to zero but for round-off, so that (A u)_i is the sum of the fluxes a_ij (u_j - u_i). A
-flux rounds relative to itself, not to a_ij u_i: what is left after refinement is near the last bit, and a force keeps
-its digits where entries of A are huge.
+Rows of a stiffness matrix sum to zero but for round-off, so that (A u)_i is the sum of the fluxes
+a_ij (u_j - u_i). A flux rounds relative to itself, not to a_ij u_i: what is left after refinement
+is near the last bit, and a force keeps its digits where entries of A are huge.
 """
 
 import numpy as np
@@ -13,7 +13,9 @@ from signorini.work import count
 EPS = np.finfo(float).eps
 BELOW = 1e-8 * EPS  # of what u varies: a stiff part feels what is far below the last bit
 _ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for zero
-_FLUX = 4.0  # roundings of a flux: the coupling, the difference, their product, and the sum of the row
+_FLUX = (
+    4.0  # roundings of a flux: the coupling, the difference, their product, and the sum of the row
+)
 
 
 def residual(A, b, u, sums=None):
@@ -45,7 +47,9 @@ def residual_and_fluxes(A, b, u, rows=None, sums=None):
 
 
 def row_sums(A):
-    """The sum of each row of a matrix, zero where it is no more than round-off; empty where all are. Shape (m,)."""
+    """The sum of each row of a matrix, zero where it is no more than round-off; empty where all
+    are. Shape (m,).
+    """
     sums = np.zeros(A.shape[0])
     for part, entries, starts in _parts(A):
         data = A.data[entries]
@@ -82,7 +86,8 @@ def _by_differences(A, b, u, rows, sums, fluxes):
 
 
 def rounding_of(b, fluxes):
-    """A bound of what rounding does to each row of `residual`, of the couplings to doubles included, shape (m,).
+    """A bound of what rounding does to each row of `residual`, of the couplings to doubles
+    included, shape (m,).
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 """The stiffness matrix of a uniform grid applied without a matrix: differences along the axes.
 
-On right triangles the coupling along the diagonal vanishes for P1, and CR couples each diagonal edge with the
-four edges of its cell alone. With kx = hy/hx and ky = hx/hy the energies are, per triangle,
-kx (du along x)^2 / 2 + ky (du along y)^2 / 2 over its legs, and for CR
-kx (v - d)^2 + ky (h - d)^2 over its vertical, horizontal and diagonal edges v, h, d.
+On right triangles the coupling along the diagonal vanishes for P1, and CR couples each diagonal
+edge with the four edges of its cell alone. With kx = hy/hx and ky = hx/hy the energies are, per
+triangle, kx (du along x)^2 / 2 + ky (du along y)^2 / 2 over its legs, and for CR kx (v - d)^2 + ky
+(h - d)^2 over its vertical, horizontal and diagonal edges v, h, d.
 """
 
 import numpy as np
@@ -116,7 +116,9 @@ def _contact_p1(grid, kx, ky, u, contact):
 
 
 def _contact_cr(grid, kx, ky, u, contact):
-    """An edge along an axis couples with the diagonal edge of its triangle alone, the second in `t2f`."""
+    """An edge along an axis couples with the diagonal edge of its triangle alone, the second in
+    `t2f`.
+    """
     behind = grid.triangles_at("contact").t2f
     weights = (ky, kx) if grid.diagonal == "falling" else (kx, ky)
     force, sizes = np.zeros((2, contact.size))

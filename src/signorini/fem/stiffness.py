@@ -1,7 +1,8 @@
 """Stiffness matrices of P1 and CR in closed form, from the geometry of each triangle alone.
 
-For the facet ij of a triangle T, k_ij = int_T grad(phi_i) . grad(phi_j) = -cot(angle opposite) / 2. P1 couples i and j
-by k_ij, CR the two other facets of T by 4 k_ij; all rows of both matrices sum to zero.
+For the facet ij of a triangle T, k_ij = int_T grad(phi_i) . grad(phi_j) = -cot(angle opposite) / 2.
+P1 couples i and j by k_ij, CR the two other facets of T by 4 k_ij; all rows of both matrices sum to
+zero.
 """
 
 import numpy as np
@@ -25,7 +26,8 @@ def assemble_stiffness(mesh, element, coefficient=None):
     Returns
     -------
     scipy.sparse.csr_array, shape (ndof, ndof)
-        Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not stored.
+        Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not
+        stored.
     """
     stretched = not isinstance(mesh, Grid) and mesh.stretch > _STRETCHED
     couplings = (_extended_couplings if stretched else facet_couplings)(mesh, coefficient)
@@ -47,7 +49,9 @@ def facet_couplings(mesh, coefficient=None):
 
 
 def _extended_couplings(mesh, coefficient):
-    """The same in extended precision: a scalar product and a cross product of edges, both of which may cancel."""
+    """The same in extended precision: a scalar product and a cross product of edges, both of which
+    may cancel.
+    """
     x, y = mesh.p.astype(np.longdouble)[:, mesh.t]
     dx, dy = (np.roll(part, -1, axis=0) - part for part in (x, y))
     one, other = [1, 2, 0], [2, 0, 1]
@@ -91,9 +95,15 @@ def _facet_matrix(mesh, couplings):
     from scipy.sparse import coo_array
 
     t2f, count = mesh.t2f.astype(np.int32, copy=False), mesh.number_of_facets
-    ones, others = (np.concatenate([t2f[pair[side]] for pair in ((1, 2), (2, 0), (0, 1))]) for side in (0, 1))
+    ones, others = (
+        np.concatenate([t2f[pair[side]] for pair in ((1, 2), (2, 0), (0, 1))]) for side in (0, 1)
+    )
     coupling = 4.0 * couplings.ravel().astype(float)
-    diagonal = -np.bincount(ones, coupling, minlength=count) - np.bincount(others, coupling, minlength=count)
+    diagonal = -np.bincount(ones, coupling, minlength=count) - np.bincount(
+        others, coupling, minlength=count
+    )
     own = np.arange(count, dtype=t2f.dtype)
     rows, columns = np.concatenate([ones, others, own]), np.concatenate([others, ones, own])
-    return coo_array((np.concatenate([coupling, coupling, diagonal]), (rows, columns)), shape=(count, count)).tocsr()
+    return coo_array(
+        (np.concatenate([coupling, coupling, diagonal]), (rows, columns)), shape=(count, count)
+    ).tocsr()

@@ -8,12 +8,23 @@ from signorini.figures.convergence import ELEMENTS
 from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
 
 NORMS = {"l2": "$L^2$ error", "h1": "$H^1$ error"}
-LINES = ("-", (0, (4, 2)), (0, (1, 1.2)), (0, (5, 1, 1, 1)))  # of the routes, in the order of their appearance
+LINES = (
+    "-",
+    (0, (4, 2)),
+    (0, (1, 1.2)),
+    (0, (5, 1, 1, 1)),
+)  # of the routes, in the order of their appearance
 STAGES = {"mesh": FAINT, "assembly": GREY, "solve": ACCENT}
 MEGABYTE = 1e6
 MM = 1 / 25.4
 
-SMALL = STYLE | {"font.size": 7, "axes.labelsize": 7, "xtick.labelsize": 6, "ytick.labelsize": 6, "legend.fontsize": 6}
+SMALL = STYLE | {
+    "font.size": 7,
+    "axes.labelsize": 7,
+    "xtick.labelsize": 6,
+    "ytick.labelsize": 6,
+    "legend.fontsize": 6,
+}
 
 
 @matplotlib.rc_context(SMALL)
@@ -37,11 +48,23 @@ def draw_error(series):
             low = [row["total"] - row["total_min"] for row in shown]
             high = [row["total_max"] - row["total"] for row in shown]
             style = _style(series, element, method)
-            axes.errorbar(times, [row[norm] for row in shown], xerr=[low, high], elinewidth=0.4, **style)
+            axes.errorbar(
+                times, [row[norm] for row in shown], xerr=[low, high], elinewidth=0.4, **style
+            )
             for row in shown:
-                place = {"xytext": (0, 2.5 if element == "P1" else -2.5), "textcoords": "offset points"}
+                place = {
+                    "xytext": (0, 2.5 if element == "P1" else -2.5),
+                    "textcoords": "offset points",
+                }
                 align = {"ha": "center", "va": "bottom" if element == "P1" else "top"}
-                axes.annotate(f"{row['n']:g}", (row["total"], row[norm]), fontsize=4.5, color=GREY, **place, **align)
+                axes.annotate(
+                    f"{row['n']:g}",
+                    (row["total"], row[norm]),
+                    fontsize=4.5,
+                    color=GREY,
+                    **place,
+                    **align,
+                )
     _finish(panels, "seconds", NORMS)
     return figure
 
@@ -62,7 +85,8 @@ def draw_growth(series, growth):
     matplotlib.figure.Figure
     """
     exponents = {
-        tuple(row[key] for key in ("scene", "element", "method", "quantity")): row["exponent"] for row in growth
+        tuple(row[key] for key in ("scene", "element", "method", "quantity")): row["exponent"]
+        for row in growth
     }
     quantities = {"total": ("seconds", 1.0), "memory": ("megabytes", MEGABYTE)}
     figure, panels = _panels(series, list(quantities))
@@ -80,19 +104,31 @@ def draw_growth(series, growth):
 
 @matplotlib.rc_context(SMALL)
 def draw_dofs(series):
-    """Unknowns against error: a row per norm, a column per scene; the routes of an element share a curve.
+    """Unknowns against error: a row per norm, a column per scene; the routes of an element share a
+    curve.
 
     `series` is as for `draw_error`; returns a matplotlib.figure.Figure.
     """
     scenes = list(dict.fromkeys(scene for scene, _, _ in series))
     figure = new_figure(TEXT_WIDTH, 80 * MM)
-    grid = {"left": 0.075, "right": 0.995, "bottom": 0.11, "top": 0.93, "wspace": 0.12, "hspace": 0.12}
-    all_axes = figure.subplots(2, len(scenes), squeeze=False, sharex=True, sharey="row", gridspec_kw=grid)
+    grid = {
+        "left": 0.075,
+        "right": 0.995,
+        "bottom": 0.11,
+        "top": 0.93,
+        "wspace": 0.12,
+        "hspace": 0.12,
+    }
+    all_axes = figure.subplots(
+        2, len(scenes), squeeze=False, sharex=True, sharey="row", gridspec_kw=grid
+    )
     for (scene, element, _), rows in _longest(series).items():
         for line, norm in zip(all_axes, NORMS, strict=True):
             shown = [row for row in rows if row[norm]]
             style = {**ELEMENTS[element][1], "label": element, "markersize": 3, "linewidth": 0.8}
-            line[scenes.index(scene)].plot([row["dofs"] for row in shown], [row[norm] for row in shown], **style)
+            line[scenes.index(scene)].plot(
+                [row["dofs"] for row in shown], [row[norm] for row in shown], **style
+            )
     for k, scene in enumerate(scenes):
         all_axes[0, k].set_title(scene, fontsize=7)
         all_axes[1, k].set_xlabel("unknowns")
@@ -120,9 +156,17 @@ def draw_stages(series):
             share = finest[stage] / sum(finest[name] for name in STAGES)
             axes.barh(k, share, 0.7, left, color=colour, label=stage if k == 0 else None)
             left += share
-        axes.text(-0.01, k, f"{scene} {element} {method}, $h = 1/{finest['n']:g}$", ha="right", va="center")
+        axes.text(
+            -0.01,
+            k,
+            f"{scene} {element} {method}, $h = 1/{finest['n']:g}$",
+            ha="right",
+            va="center",
+        )
         axes.text(1.01, k, _seconds(finest["total"]), va="center")
-    axes.set(xlim=(0, 1), ylim=(len(series) - 0.4, -0.6), yticks=[], xlabel="share of the total time")
+    axes.set(
+        xlim=(0, 1), ylim=(len(series) - 0.4, -0.6), yticks=[], xlabel="share of the total time"
+    )
     axes.spines["left"].set_visible(False)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     return figure
@@ -130,12 +174,14 @@ def draw_stages(series):
 
 @matplotlib.rc_context(SMALL)
 def draw_rivals(rivals, titles):
-    """Time of the rivals over ours, a panel per route of ours, a point per scene, element and level.
+    """Time of the rivals over ours, a panel per route of ours, a point per scene, element and
+    level.
 
     Parameters
     ----------
     rivals : sequence of dict
-        Rows of rivals.csv with numbers; those with a ratio are drawn, hollow where the rival failed.
+        Rows of rivals.csv with numbers; those with a ratio are drawn, hollow where the rival
+        failed.
     titles : dict
         Rival -> name.
 
@@ -148,8 +194,16 @@ def draw_rivals(rivals, titles):
     routes = list(dict.fromkeys(row["ours"] for row in drawn)) or ["ours"]
     figure = new_figure(TEXT_WIDTH, (16 + 6 * len(names)) * MM)
     height = figure.get_figheight() / MM
-    grid = {"left": 0.22, "right": 0.99, "bottom": 9 / height, "top": 1 - 5 / height, "wspace": 0.05}
-    all_axes = figure.subplots(1, len(routes), squeeze=False, sharey=True, sharex=True, gridspec_kw=grid)[0]
+    grid = {
+        "left": 0.22,
+        "right": 0.99,
+        "bottom": 9 / height,
+        "top": 1 - 5 / height,
+        "wspace": 0.05,
+    }
+    all_axes = figure.subplots(
+        1, len(routes), squeeze=False, sharey=True, sharex=True, gridspec_kw=grid
+    )[0]
     levels = sorted({row["n"] for row in drawn})
     for axes, route in zip(all_axes, routes, strict=True):
         axes.axvline(1.0, color=GREY, linewidth=0.6)
@@ -159,7 +213,13 @@ def draw_rivals(rivals, titles):
             fill = "white" if row["status"] == "failed" else colour
             axes.plot([row["ratio_min"], row["ratio_max"]], [y, y], color=colour, linewidth=0.4)
             axes.plot(
-                row["ratio"], y, color=colour, marker="o", markersize=2, markerfacecolor=fill, markeredgewidth=0.4
+                row["ratio"],
+                y,
+                color=colour,
+                marker="o",
+                markersize=2,
+                markerfacecolor=fill,
+                markeredgewidth=0.4,
             )
         axes.set(xscale="log", xlabel="time of the rival / ours")
         axes.set_title(f"against {route}", fontsize=7)
@@ -173,8 +233,17 @@ def _panels(series, columns):
     scenes = list(dict.fromkeys(scene for scene, _, _ in series))
     figure = new_figure(TEXT_WIDTH, (9 + 38 * len(scenes)) * MM)
     height = figure.get_figheight() / MM
-    grid = {"left": 0.075, "right": 0.995, "bottom": 8 / height, "top": 1 - 4 / height, "wspace": 0.16, "hspace": 0.22}
-    all_axes = figure.subplots(len(scenes), len(columns), squeeze=False, sharex="col", gridspec_kw=grid)
+    grid = {
+        "left": 0.075,
+        "right": 0.995,
+        "bottom": 8 / height,
+        "top": 1 - 4 / height,
+        "wspace": 0.16,
+        "hspace": 0.22,
+    }
+    all_axes = figure.subplots(
+        len(scenes), len(columns), squeeze=False, sharex="col", gridspec_kw=grid
+    )
     return figure, {
         (scene, key): axes
         for scene, line in zip(scenes, all_axes, strict=True)
@@ -183,7 +252,9 @@ def _panels(series, columns):
 
 
 def _finish(panels, xlabel, ylabels, rising=False):
-    """Axes, and legends: upper left in every panel where curves rise, else upper right in the first row."""
+    """Axes, and legends: upper left in every panel where curves rise, else upper right in the first
+    row.
+    """
     scenes = list(dict.fromkeys(scene for scene, _ in panels))
     for (scene, key), axes in panels.items():
         axes.set(xscale="log", yscale="log", ylabel=ylabels[key])
@@ -200,7 +271,9 @@ def _finish(panels, xlabel, ylabels, rising=False):
 def _whole_decades(axes, above=0):
     """Let the ordinates run over whole decades, at least one, and some more above."""
     low, high = (math.log10(value) for value in (axes.dataLim.y0, axes.dataLim.y1))
-    axes.set_ylim(10.0 ** math.floor(low), 10.0 ** (max(math.ceil(high), math.floor(low) + 1) + above))
+    axes.set_ylim(
+        10.0 ** math.floor(low), 10.0 ** (max(math.ceil(high), math.floor(low) + 1) + above)
+    )
 
 
 def _style(series, element, method):

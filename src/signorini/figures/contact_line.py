@@ -9,18 +9,24 @@ from signorini.figures.style import BLACK, FAINT, STYLE, TEXT_WIDTH, new_figure
 
 MOST_MARKERS = 24  # on a line
 NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical")
-UNITS = {"s": ("s", "critical"), "u": ("u", "obstacle"), "flux": ("flux",)}  # the columns that share one
+UNITS = {
+    "s": ("s", "critical"),
+    "u": ("u", "obstacle"),
+    "flux": ("flux",),
+}  # the columns that share one
 LEFT, RIGHT = 0.09, 0.985  # of the panels, which are stacked
 
 
 @matplotlib.rc_context(STYLE)
 def draw_contact_line(rows):
-    """Draw u with the obstacle, and the contact force, along the contact part: each element at its finest level.
+    """Draw u with the obstacle, and the contact force, along the contact part: each element at its
+    finest level.
 
     Parameters
     ----------
     rows : sequence of mapping
-        What `signorini.fem.contact_line.contact_rows` returns, of one or more solutions, as text or numbers.
+        What `signorini.fem.contact_line.contact_rows` returns, of one or more solutions, as text or
+        numbers.
 
     Returns
     -------
@@ -44,12 +50,16 @@ def draw_contact_line(rows):
     upper.set_xlim(-0.01 * end, 1.01 * end)
     if not any(line["flux"].any() for line in lines.values()):
         lower.set_ylim(-0.05, 1)
-    figure.legend(loc="lower center", ncols=4, handlelength=2.6, columnspacing=1.6, borderaxespad=0.1)
+    figure.legend(
+        loc="lower center", ncols=4, handlelength=2.6, columnspacing=1.6, borderaxespad=0.1
+    )
     return figure
 
 
 def _finest(rows):
-    """The columns of each element's finest level by name, in the order of the rows; a missing number is NaN."""
+    """The columns of each element's finest level by name, in the order of the rows; a missing
+    number is NaN.
+    """
     if not rows:
         raise ValueError("contact line: no rows; there is nothing to draw without a contact part")
     lines = {}
@@ -58,13 +68,18 @@ def _finest(rows):
             raise ValueError(f"no style for the element {name!r}; known: {', '.join(ELEMENTS)}")
         n = max(int(row["n"]) for row in rows if row["element"] == name)
         found = [row for row in rows if row["element"] == name and int(row["n"]) == n]
-        columns = {key: [np.nan if row[key] in (None, "") else float(row[key]) for row in found] for key in NUMBERS}
+        columns = {
+            key: [np.nan if row[key] in (None, "") else float(row[key]) for row in found]
+            for key in NUMBERS
+        }
         lines[name] = {key: np.array(column) for key, column in columns.items()} | {"n": n}
     return lines
 
 
 def _to_unit(lines, columns):
-    """Divide the columns of all lines by the power of ten in which they read best; return its exponent."""
+    """Divide the columns of all lines by the power of ten in which they read best; return its
+    exponent.
+    """
     values = np.concatenate([line[name] for line in lines.values() for name in columns])
     exponent = unit_exponent(values[~np.isnan(values)])
     for line in lines.values():
@@ -92,7 +107,11 @@ def _draw_lines(upper, lower, lines):
     lower.axhline(0, color=FAINT, linewidth=0.5, zorder=1)
     for order, (name, line) in enumerate(lines.items()):
         label, style = ELEMENTS[name]
-        style = style | {"markersize": 3.2, "markevery": -(-len(line["s"]) // MOST_MARKERS), "zorder": 4 - 0.1 * order}
+        style = style | {
+            "markersize": 3.2,
+            "markevery": -(-len(line["s"]) // MOST_MARKERS),
+            "zorder": 4 - 0.1 * order,
+        }
         upper.plot(*_by_component(line, "u"), label=f"{label}, $n = {line['n']}$", **style)
         lower.plot(*_by_component(line, "flux"), **style)
     style = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (4, 3)), "zorder": 2}
@@ -111,7 +130,9 @@ def _draw_critical_points(upper, lower, lines):
             upper.axvline(s, **style)
             lower.axvline(s, **style)
         if at.size:
-            upper.plot(at, np.interp(at, line["s"], line["obstacle"]), "o", label=label, zorder=5, **marker)
+            upper.plot(
+                at, np.interp(at, line["s"], line["obstacle"]), "o", label=label, zorder=5, **marker
+            )
             label = "_"
 
 
@@ -119,4 +140,6 @@ def _draw_ends(upper, lower, line):
     """A line through both panels where one component ends and the next starts."""
     for k in np.flatnonzero(np.diff(line["component"])):
         for axes in (upper, lower):
-            axes.axvline(0.5 * (line["s"][k] + line["s"][k + 1]), color=FAINT, linewidth=0.8, zorder=1)
+            axes.axvline(
+                0.5 * (line["s"][k] + line["s"][k + 1]), color=FAINT, linewidth=0.8, zorder=1
+            )

@@ -17,7 +17,10 @@ NORMS = {  # a norm that is not here goes by its own name
 }
 ORDERS = {"l2": 2}  # of the theory, and of the slope triangle; of any other norm 1
 ELEMENTS = {
-    "P1": ("CF (P1)", {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"}),
+    "P1": (
+        "CF (P1)",
+        {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"},
+    ),
     "CR": ("NCF (CR)", {"color": ACCENT, "marker": "s", "linestyle": (0, (4, 2))}),
 }
 MOST_TICKS = 7
@@ -48,7 +51,9 @@ def draw_convergence(errors, norm, slopes=None):
     if not any(norm in row for row in errors):
         given = [name for name in NORMS if any(name in row for row in errors)]
         raise ValueError(f"no errors in the norm {norm!r}; known: {', '.join(given)}")
-    errors = [row for row in errors if row.get(norm) not in (None, "") and math.isfinite(float(row[norm]))]
+    errors = [
+        row for row in errors if row.get(norm) not in (None, "") and math.isfinite(float(row[norm]))
+    ]
     names = dict.fromkeys(row["element"] for row in errors)
     for name in names:
         if name not in ELEMENTS:
@@ -60,7 +65,9 @@ def draw_convergence(errors, norm, slopes=None):
         if slopes and slopes.get(name) not in (None, ""):
             label += f", slope {float(slopes[name]):.2f}"
         rows = [row for row in errors if row["element"] == name]
-        axes.plot([float(r["h"]) for r in rows], [float(r[norm]) for r in rows], label=label, **style)
+        axes.plot(
+            [float(r["h"]) for r in rows], [float(r[norm]) for r in rows], label=label, **style
+        )
     _set_limits(axes, [float(row["h"]) for row in errors], [float(row[norm]) for row in errors])
     _label_levels(axes, {int(row["n"]): float(row["h"]) for row in errors})
     _draw_triangle(axes, _lowest(errors, norm), ORDERS.get(norm, 1))
@@ -70,9 +77,15 @@ def draw_convergence(errors, norm, slopes=None):
 
 
 def slopes_of(rates, norm, kind):
-    """Element -> its slope of one kind in one norm, from rows of ``rates.csv``; none where errors are at round-off."""
+    """Element -> its slope of one kind in one norm, from rows of ``rates.csv``; none where errors
+    are at round-off.
+    """
     wanted = (norm, kind, "0")
-    return {row["element"]: row["slope"] for row in rates if (row["norm"], row["kind"], row["floor"]) == wanted}
+    return {
+        row["element"]: row["slope"]
+        for row in rates
+        if (row["norm"], row["kind"], row["floor"]) == wanted
+    }
 
 
 def _set_limits(axes, widths, errors):
@@ -85,9 +98,13 @@ def _set_limits(axes, widths, errors):
 
 
 def _label_levels(axes, levels):
-    """Put a tick at every mesh width, and its value, where it can be as 1/n, at as many as there is room for."""
+    """Put a tick at every mesh width, and its value, where it can be as 1/n, at as many as there is
+    room for.
+    """
     names = [f"1/{n}" if math.isclose(n * h, 1) else f"{h:.2g}" for n, h in levels.items()]
-    step = -(-len(levels) // (MOST_TICKS if max(map(len, names), default=0) <= 6 else MOST_TICKS // 2))
+    step = -(
+        -len(levels) // (MOST_TICKS if max(map(len, names), default=0) <= 6 else MOST_TICKS // 2)
+    )
     labels = [name if k % step == 0 else "" for k, name in enumerate(names)]
     axes.set_xticks(list(levels.values()), labels)
     axes.minorticks_off()
@@ -113,5 +130,7 @@ def _draw_triangle(axes, lowest, order):
     top = bottom * (right / left) ** order
     axes.plot([left, right, right, left], [bottom, bottom, top, bottom], color=GREY, linewidth=0.7)
     offset = {"textcoords": "offset points", "fontsize": 8, "color": GREY}
-    axes.annotate("$1$", (math.sqrt(left * right), bottom), (0, -3), ha="center", va="top", **offset)
+    axes.annotate(
+        "$1$", (math.sqrt(left * right), bottom), (0, -3), ha="center", va="top", **offset
+    )
     axes.annotate(f"${order}$", (right, math.sqrt(bottom * top)), (3, 0), va="center", **offset)

@@ -1,4 +1,6 @@
-"""A solution over any domain: filled contours of u, the parts of the boundary, and where the constraint binds."""
+"""A solution over any domain: filled contours of u, the parts of the boundary, and where the
+constraint binds.
+"""
 
 import math
 from string import ascii_letters, digits
@@ -10,16 +12,20 @@ from matplotlib.ticker import MaxNLocator
 
 from signorini.figures.style import ACCENT, BLACK, STYLE, TEXT_WIDTH, new_figure
 
-# From paper to brown in steps of about equal length in CIELAB, lightness falling all the way: it also reads in grey,
-# and black and ACCENT stand out on all of it.
+# From paper to brown in steps of about equal length in CIELAB, lightness falling all the way: it
+# also reads in grey, and black and ACCENT stand out on all of it.
 COLOURS = LinearSegmentedColormap.from_list(
     "sand", ["#fdf5ed", "#efdcc6", "#e0c3a0", "#cea97b", "#ba8d58", "#a26f37", "#87521c"]
 )
 BANDS = 9  # of colour, at most
 STEPS = [1, 2, 2.5, 5, 10]  # between levels and between ticks, times a power of ten
 FLAT = 1e-9  # a range of u this small against u is drawn as a constant
-MOST_STRETCHED = 8  # longer side of a drawn domain over the shorter; a longer domain is not drawn to scale
-OFFSET = 1e3  # a domain this many of its own sizes from the origin is labelled relative to its corner
+MOST_STRETCHED = (
+    8  # longer side of a drawn domain over the shorter; a longer domain is not drawn to scale
+)
+OFFSET = (
+    1e3  # a domain this many of its own sizes from the origin is labelled relative to its corner
+)
 LEAST_EXPONENT = -306  # of a unit, so that it is a normal number
 
 # Widths and heights in inches.
@@ -33,14 +39,24 @@ BOUNDARY = {
     "contact": ("contact", {"color": ACCENT, "linewidth": 2}),
     "binding": ("contact, binding", {"color": BLACK, "linewidth": 2.8}),
 }
-CRITICAL = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5, "linestyle": "none"}
+CRITICAL = {
+    "markerfacecolor": "white",
+    "markeredgecolor": BLACK,
+    "markersize": 5.5,
+    "linestyle": "none",
+}
 
-_AS_THEY_ARE = {*ascii_letters, *digits, *" !#%&'()*+,-./:;=?@[]"}  # the characters that cmr10 has under their own code
+_AS_THEY_ARE = {
+    *ascii_letters,
+    *digits,
+    *" !#%&'()*+,-./:;=?@[]",
+}  # the characters that cmr10 has under their own code
 
 
 @matplotlib.rc_context(STYLE)
 def draw_field(field, title=""):
-    """Draw u as filled contours, for CR on every triangle by itself, over a domain of any shape and size.
+    """Draw u as filled contours, for CR on every triangle by itself, over a domain of any shape and
+    size.
 
     Parameters
     ----------
@@ -69,7 +85,9 @@ def draw_field(field, title=""):
     tidy_ticks(axes.yaxis, height)
     colours = figure.add_axes(_relative(page, left + width + 0.25, bottom, BAR, bar))
     _draw_bar(figure, colours, contours, with_unit("$u$", exponent))
-    figure.legend(loc="lower center", ncols=3, handlelength=2.4, columnspacing=1.6, borderaxespad=0.2)
+    figure.legend(
+        loc="lower center", ncols=3, handlelength=2.4, columnspacing=1.6, borderaxespad=0.2
+    )
     if title:
         figure.text(0.5, 1 - TOP / page[1], title, ha="center", va="bottom", **plain(title))
     return figure
@@ -106,7 +124,9 @@ class Frame:
         low, high = p.min(axis=1), p.max(axis=1)
         far = np.maximum(np.abs(low), np.abs(high)) > OFFSET * (high - low).max()
         self.offset = np.where(far, low, 0.0)
-        exponents = [unit_exponent([low[k] - self.offset[k], high[k] - self.offset[k]]) for k in range(2)]
+        exponents = [
+            unit_exponent([low[k] - self.offset[k], high[k] - self.offset[k]]) for k in range(2)
+        ]
         width, height = high - low
         ratio = min(max(width / height, 1 / MOST_STRETCHED), MOST_STRETCHED)
         self.to_scale = ratio == width / height
@@ -125,12 +145,16 @@ class Frame:
     def label(self, axis, name):
         """Name of an axis: what its tick labels count."""
         offset = self.offset[axis]
-        text = f"${name} {'-' if offset > 0 else '+'} {abs(offset):.10g}$" if offset else f"${name}$"
+        text = (
+            f"${name} {'-' if offset > 0 else '+'} {abs(offset):.10g}$" if offset else f"${name}$"
+        )
         return with_unit(text, self.exponents[axis])
 
 
 def unit_exponent(values):
-    """The exponent, a multiple of 3, of the power of ten in which `values` read best; 0 from 0.01 to 10000."""
+    """The exponent, a multiple of 3, of the power of ten in which `values` read best; 0 from 0.01
+    to 10000.
+    """
     largest = np.max(np.abs(values), initial=0.0)
     if largest == 0 or 1e-2 <= largest < 1e4:
         return 0
@@ -150,7 +174,9 @@ def tidy_ticks(axis, length):
 
 def plain(text):
     """Options that set a user's `text` as it was typed, in a font that has its characters."""
-    return {"parse_math": False} | ({} if _AS_THEY_ARE.issuperset(text) else {"family": "STIXGeneral"})
+    return {"parse_math": False} | (
+        {} if _AS_THEY_ARE.issuperset(text) else {"family": "STIXGeneral"}
+    )
 
 
 def paint(axes, field, frame, thickness=1.0):
@@ -172,11 +198,18 @@ def paint(axes, field, frame, thickness=1.0):
         The contours' numbers count units of ``10**exponent``.
     """
     exponent = unit_exponent(field["range"])
-    values, levels = field["values"] / 10.0**exponent, _levels(*(field["range"] / 10.0**exponent).tolist())
+    values, levels = (
+        field["values"] / 10.0**exponent,
+        _levels(*(field["range"] / 10.0**exponent).tolist()),
+    )
     x, y = frame.place(field["p"])[:, field["t"].ravel()]
     corners = np.arange(values.size).reshape(3, -1).T  # of each triangle by itself
-    heights = np.clip(values.ravel(), levels[0], np.nextafter(levels[-1], -np.inf))  # the last band is open above
-    contours = axes.tricontourf(x, y, corners, heights, levels, cmap=COLOURS, antialiased=False, zorder=1)
+    heights = np.clip(
+        values.ravel(), levels[0], np.nextafter(levels[-1], -np.inf)
+    )  # the last band is open above
+    contours = axes.tricontourf(
+        x, y, corners, heights, levels, cmap=COLOURS, antialiased=False, zorder=1
+    )
     contours.set_rasterized(True)  # the many triangles would show their seams, and weigh
     if len(levels) > 2:
         style = {"colors": BLACK, "linewidths": 0.3 * thickness, "linestyles": "solid", "zorder": 2}
@@ -201,20 +234,33 @@ def _levels(low, high):
 
 def _draw_boundary(axes, field, frame, thickness):
     p = field["p"]
-    pieces = {label: p[:, field[f"edges_{label}"]].transpose(2, 1, 0) for label in ("dirichlet", "neumann", "contact")}
+    pieces = {
+        label: p[:, field[f"edges_{label}"]].transpose(2, 1, 0)
+        for label in ("dirichlet", "neumann", "contact")
+    }
     for order, (name, found) in enumerate((pieces | {"binding": field["binding"]}).items()):
         label, style = BOUNDARY[name]
         if len(found):
             style = style | {"linewidth": thickness * style["linewidth"]}
             joint = {"solid_joinstyle": "round", "solid_capstyle": "butt", "clip_on": False}
-            axes.plot(*frame.place(_polyline(found).T), label=label, zorder=3 + order, **style, **joint)
+            axes.plot(
+                *frame.place(_polyline(found).T), label=label, zorder=3 + order, **style, **joint
+            )
     marker = CRITICAL | {"markersize": thickness * CRITICAL["markersize"], "clip_on": False}
     if len(field["critical_points"]):
-        axes.plot(*frame.place(field["critical_points"].T), "o", label="critical point", zorder=7, **marker)
+        axes.plot(
+            *frame.place(field["critical_points"].T),
+            "o",
+            label="critical point",
+            zorder=7,
+            **marker,
+        )
 
 
 def _polyline(pieces):
-    """Points (k, 2) of a line through `pieces` (m, 2, 2), broken by NaN where one does not start at the last's end."""
+    """Points (k, 2) of a line through `pieces` (m, 2, 2), broken by NaN where one does not start at
+    the last's end.
+    """
     broken = np.flatnonzero(np.any(pieces[1:, 0] != pieces[:-1, 1], axis=1)) + 1
     lines = [np.append(run[:, 0], run[-1:, 1], axis=0) for run in np.split(pieces, broken)]
     gap = np.full((1, 2), np.nan)

@@ -25,13 +25,22 @@ NAME_LETTERS = 28  # of a scene's name in full size
 THICKNESS = 0.75  # of lines, relative to those of a figure of its own
 
 # Widths and heights in inches.
-CELL, BOX, MARGIN = 2.4, 2.0, 0.15  # of a column, of the square that a domain fits in, around the sheet
-HEAD, FOOT, KEY = 0.56, 0.42, 0.4  # name and title above a domain, range of u below it, key of the sheet
+CELL, BOX, MARGIN = (
+    2.4,
+    2.0,
+    0.15,
+)  # of a column, of the square that a domain fits in, around the sheet
+HEAD, FOOT, KEY = (
+    0.56,
+    0.42,
+    0.4,
+)  # name and title above a domain, range of u below it, key of the sheet
 
 
 @matplotlib.rc_context(STYLE)
 def draw_gallery(fields):
-    """Draw solutions side by side, four in a row, each with its own range of colours and to its own scale.
+    """Draw solutions side by side, four in a row, each with its own range of colours and to its own
+    scale.
 
     Parameters
     ----------
@@ -73,7 +82,9 @@ def _draw_scene(figure, left, top, name, title, field, frame):
     about = {"fontsize": 7, "color": GREY, "va": "top", "linespacing": 1.15}
     figure.text(left / width, (top - 0.19) / height, "\n".join(lines), **about, **plain(title))
     bottom = top - HEAD - up
-    axes = figure.add_axes((left / width, bottom / height, across / width, up / height), frame_on=False)
+    axes = figure.add_axes(
+        (left / width, bottom / height, across / width, up / height), frame_on=False
+    )
     paint(axes, field, frame, THICKNESS)
     axes.set(xticks=[], yticks=[])
     figure.text(left / width, (bottom - 0.08) / height, _range(field), fontsize=8, va="top")
@@ -105,7 +116,9 @@ def _draw_key(figure):
     )
     middle, start = (MARGIN + 0.03) / height, 1 - (MARGIN + 2.0) / width
     axes = figure.add_axes((start, middle, 1.0 / width, 0.1 / height))
-    bar = figure.colorbar(ScalarMappable(cmap=COLOURS), cax=axes, orientation="horizontal", ticks=[])
+    bar = figure.colorbar(
+        ScalarMappable(cmap=COLOURS), cax=axes, orientation="horizontal", ticks=[]
+    )
     bar.outline.set(linewidth=0.5, edgecolor=BLACK)
     beside = {"fontsize": 8, "va": "center"}
     figure.text(start - 0.08 / width, middle + 0.05 / height, "least $u$", ha="right", **beside)

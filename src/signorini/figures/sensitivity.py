@@ -1,4 +1,6 @@
-"""How near every combination of the unsaid choices comes to the paper's table, and what each would have concluded."""
+"""How near every combination of the unsaid choices comes to the paper's table, and what each would
+have concluded.
+"""
 
 import math
 
@@ -18,8 +20,12 @@ DIAGONALS = {
 }
 H1 = {"full": "$H^1$: full norm", "semi": "$H^1$: seminorm"}
 STEPS = 33  # of colour
-NEAR = LinearSegmentedColormap.from_list("near", ["#1d4f86", ACCENT, "#7ba7d7", "#c9dcf0", "#fbfcfe"], N=STEPS)
-BETTER = LinearSegmentedColormap.from_list("better", ["#1d4f86", "#7ba7d7", "#ffffff", "#cea97b", "#87521c"], N=STEPS)
+NEAR = LinearSegmentedColormap.from_list(
+    "near", ["#1d4f86", ACCENT, "#7ba7d7", "#c9dcf0", "#fbfcfe"], N=STEPS
+)
+BETTER = LinearSegmentedColormap.from_list(
+    "better", ["#1d4f86", "#7ba7d7", "#ffffff", "#cea97b", "#87521c"], N=STEPS
+)
 FLAT = 0.8  # height of a tile over its width
 WIDEST = 4.0  # ratios beyond, or below its inverse, have the darkest colours
 
@@ -27,7 +33,12 @@ WIDEST = 4.0  # ratios beyond, or below its inverse, have the darkest colours
 LABELS, BELOW, ABOVE, GAP, BAR, CAPTION = 1.08, 0.55, 0.2, 0.1, 0.09, 0.4
 
 _CUTS = {"/": ((0, 1), (0, 1)), "\\": ((0, 1), (1, 0))}
-_FIRST = {"falling": "\\\\", "rising": "//", "alternating": "\\/", "alternating-rising": "/\\"}  # of two cells in a row
+_FIRST = {
+    "falling": "\\\\",
+    "rising": "//",
+    "alternating": "\\/",
+    "alternating-rising": "/\\",
+}  # of two cells in a row
 
 
 @matplotlib.rc_context(STYLE)
@@ -37,8 +48,8 @@ def draw_matches(rows):
     Parameters
     ----------
     rows : sequence of mapping
-        Of ``sensitivity.csv``, of one slope, as text or numbers. Norm rules that agree in all that is shown share a
-        panel.
+        Of ``sensitivity.csv``, of one slope, as text or numbers. Norm rules that agree in all that
+        is shown share a panel.
 
     Returns
     -------
@@ -56,17 +67,41 @@ def draw_matches(rows):
         for j, h1 in enumerate(meanings):
             place = LABELS + i * (side + GAP), page[1] - ABOVE - (j + 1) * height - j * GAP
             axes = _panel(figure, page, place, (side, height), diagonals, named=i == 0)
-            _fill_matches(axes, [[table[diagonal, load, h1] for load in loads] for diagonal in diagonals], colours)
+            _fill_matches(
+                axes,
+                [[table[diagonal, load, h1] for load in loads] for diagonal in diagonals],
+                colours,
+            )
             if j == 0:
                 axes.set_title(f"norms {rules}", fontsize=8)
             if i == len(groups) - 1:
-                aside = {"xytext": (5, 0), "textcoords": "offset points", "rotation": 270, "va": "center", "size": 8}
+                aside = {
+                    "xytext": (5, 0),
+                    "textcoords": "offset points",
+                    "rotation": 270,
+                    "va": "center",
+                    "size": 8,
+                }
                 axes.annotate(H1[h1], (1, 0.5), xycoords="axes fraction", **aside)
             if j == len(meanings) - 1:
-                axes.set_xticks([k + 0.5 for k in range(len(loads))], loads, rotation=40, ha="right")
-    figure.text((LABELS - 0.35) / page[0], (CAPTION + 0.3) / page[1], "load", ha="right", va="center", fontsize=8)
+                axes.set_xticks(
+                    [k + 0.5 for k in range(len(loads))], loads, rotation=40, ha="right"
+                )
+    figure.text(
+        (LABELS - 0.35) / page[0],
+        (CAPTION + 0.3) / page[1],
+        "load",
+        ha="right",
+        va="center",
+        fontsize=8,
+    )
     total = rows[0]["errors"]
-    _bar(figure, page, colours, f"errors matched, of {total}; below and by colour, the largest relative miss")
+    _bar(
+        figure,
+        page,
+        colours,
+        f"errors matched, of {total}; below and by colour, the largest relative miss",
+    )
     return figure
 
 
@@ -81,7 +116,8 @@ def _fill_matches(axes, lines, colours):
 
 @matplotlib.rc_context(STYLE)
 def draw_ratios(rows):
-    """Draw the L2 error of CR relative to that of P1 on every level, for each load rule and diagonal.
+    """Draw the L2 error of CR relative to that of P1 on every level, for each load rule and
+    diagonal.
 
     Parameters
     ----------
@@ -114,7 +150,12 @@ def draw_ratios(rows):
         axes.xaxis.tick_top()
         axes.set_xticks([x + 0.5 for x in range(len(levels))], [f"$N={levels[0]}$", *levels[1:]])
         axes.tick_params(labelsize=7, pad=0)
-    _bar(figure, page, colours, "$L^2$ error of NCF relative to CF: blue where NCF has the smaller, brown where CF has")
+    _bar(
+        figure,
+        page,
+        colours,
+        "$L^2$ error of NCF relative to CF: blue where NCF has the smaller, brown where CF has",
+    )
     return figure
 
 
@@ -126,8 +167,12 @@ def _rules_alike(rows):
     """(Names, table) of the norm rules, those with equal tables under one name."""
     groups = {}
     for rule in _distinct(rows, "rule"):
-        table = {(row["diagonal"], row["load"], row["h1"]): row for row in rows if row["rule"] == rule}
-        shown = tuple((key, row["matched"], f"{float(row['largest_miss']):.6e}") for key, row in table.items())
+        table = {
+            (row["diagonal"], row["load"], row["h1"]): row for row in rows if row["rule"] == rule
+        }
+        shown = tuple(
+            (key, row["matched"], f"{float(row['largest_miss']):.6e}") for key, row in table.items()
+        )
         groups.setdefault(shown, ([], table))[0].append(rule)
     return [(_titles(rules), table) for rules, table in groups.values()]
 
@@ -137,7 +182,9 @@ def _titles(rules):
 
 
 def _panel(figure, page, place, size, diagonals, named):
-    """Axes whose unit squares are tiles, the first diagonal on top; if `named`, with names and pictures on the left."""
+    """Axes whose unit squares are tiles, the first diagonal on top; if `named`, with names and
+    pictures on the left.
+    """
     (left, bottom), (width, height) = place, size
     axes = figure.add_axes((left / page[0], bottom / page[1], width / page[0], height / page[1]))
     axes.set(xlim=(0, 1), ylim=(len(diagonals), 0), xticks=[], yticks=[])
@@ -149,7 +196,14 @@ def _panel(figure, page, place, size, diagonals, named):
             middle = bottom + height - (y + 0.5) * height / len(diagonals)
             _picture(figure, page, (left - pixel - 0.07, middle - pixel / 2), pixel, diagonal)
             x = (left - pixel - 0.13) / page[0]
-            figure.text(x, middle / page[1], DIAGONALS.get(diagonal, diagonal), ha="right", va="center", fontsize=7)
+            figure.text(
+                x,
+                middle / page[1],
+                DIAGONALS.get(diagonal, diagonal),
+                ha="right",
+                va="center",
+                fontsize=7,
+            )
     return axes
 
 
@@ -167,21 +221,41 @@ def _picture(figure, page, place, side, diagonal):
 
 
 def _tile(axes, x, y, colour, label, dark):
-    """A square filled with a colour, unless it is None, and a label: its text, size, and height in the square."""
+    """A square filled with a colour, unless it is None, and a label: its text, size, and height in
+    the square.
+    """
     text, size, height = label
     if colour is not None:
         axes.set_xlim(0, max(axes.get_xlim()[1], x + 1))
-        axes.fill([x, x + 1, x + 1, x], [y, y, y + 1, y + 1], facecolor=colour, edgecolor="white", linewidth=1)
-    axes.text(x + 0.5, y + height, text, ha="center", va="center", fontsize=size, color="white" if dark else BLACK)
+        axes.fill(
+            [x, x + 1, x + 1, x],
+            [y, y, y + 1, y + 1],
+            facecolor=colour,
+            edgecolor="white",
+            linewidth=1,
+        )
+    axes.text(
+        x + 0.5,
+        y + height,
+        text,
+        ha="center",
+        va="center",
+        fontsize=size,
+        color="white" if dark else BLACK,
+    )
 
 
 def _bar(figure, page, colours, label):
-    axes = figure.add_axes((LABELS / page[0], (CAPTION - 0.16) / page[1], 1 - LABELS / page[0] - 0.05, BAR / page[1]))
+    axes = figure.add_axes(
+        (LABELS / page[0], (CAPTION - 0.16) / page[1], 1 - LABELS / page[0] - 0.05, BAR / page[1])
+    )
     bar = figure.colorbar(colours, cax=axes, orientation="horizontal")
     bar.outline.set_linewidth(0.5)
     low, high = colours.norm.vmin, colours.norm.vmax
     if high / low > 100:
-        bar.set_ticks([10.0**k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)])
+        bar.set_ticks(
+            [10.0**k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
+        )
     else:
         ticks = [value for value in (0.25, 0.5, 1, 2, 4) if low <= value <= high]
         bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])

@@ -22,7 +22,8 @@ EPS = 2.0**-52
 
 @matplotlib.rc_context(SMALL)
 def draw_digits(cells):
-    """A heat map per element: correct digits of the worst solution, for each family of meshes and kind of load.
+    """A heat map per element: correct digits of the worst solution, for each family of meshes and
+    kind of load.
 
     Parameters
     ----------
@@ -40,7 +41,10 @@ def draw_digits(cells):
         axes = figure.add_axes((0.13 + 0.45 * k, 0.084 / height, 0.41, 1 - 0.126 / height))
         values = [[cells[element, family, load][0] for load in loads] for family in families]
         shares = [[cells[element, family, load][1] for load in loads] for family in families]
-        texts = [[_digits_text(*cell) for cell in zip(*row, strict=True)] for row in zip(values, shares, strict=True)]
+        texts = [
+            [_digits_text(*cell) for cell in zip(*row, strict=True)]
+            for row in zip(values, shares, strict=True)
+        ]
         _heat(axes, values, texts, (4, 16))
         axes.set_xticks(range(len(loads)), loads, rotation=40, ha="right", rotation_mode="anchor")
         axes.set_yticks(range(len(families)), families if k == 0 else [""] * len(families))
@@ -50,7 +54,8 @@ def draw_digits(cells):
 
 @matplotlib.rc_context(SMALL)
 def draw_rivals(by_load, by_family, titles):
-    """Two heat maps: percent solved by each solver, for each kind of load and for each family of meshes.
+    """Two heat maps: percent solved by each solver, for each kind of load and for each family of
+    meshes.
 
     Parameters
     ----------
@@ -67,10 +72,14 @@ def draw_rivals(by_load, by_family, titles):
     for k, cells in enumerate((by_load, by_family)):
         columns = list(dict.fromkeys(column for _, column in cells))
         axes = figure.add_axes((0.245 + 0.375 * k, 0.2, 0.365, 0.76))
-        values = [[cells.get((solver, column), math.nan) for column in columns] for solver in titles]
+        values = [
+            [cells.get((solver, column), math.nan) for column in columns] for solver in titles
+        ]
         texts = [["" if math.isnan(v) else f"{math.floor(100 * v)}" for v in row] for row in values]
         _heat(axes, values, texts, (0, 1))
-        axes.set_xticks(range(len(columns)), columns, rotation=40, ha="right", rotation_mode="anchor")
+        axes.set_xticks(
+            range(len(columns)), columns, rotation=40, ha="right", rotation_mode="anchor"
+        )
         axes.set_yticks(range(len(titles)), titles.values() if k == 0 else [""] * len(titles))
     return figure
 
@@ -87,7 +96,9 @@ def _heat(axes, values, texts, limits):
     for i, row in enumerate(texts):
         for j, text in enumerate(row):
             dark = values[i][j] < middle
-            axes.text(j, i, text, ha="center", va="center", fontsize=6.5, color="white" if dark else BLACK)
+            axes.text(
+                j, i, text, ha="center", va="center", fontsize=6.5, color="white" if dark else BLACK
+            )
     axes.tick_params(length=0)
     for spine in axes.spines.values():
         spine.set_visible(True)
@@ -119,7 +130,13 @@ def draw_estimates(pairs, span):
             x, y = _thinned([(error, accuracy) for error, accuracy, own in points if own == solved])
             axes.scatter(x, y, 3, colour, linewidths=0, label=label)
         axes.axhline(1e-10, color=FAINT, linewidth=0.6, zorder=0)
-        axes.set(xlabel="true error", ylabel="" if k else "accuracy as stated", title=title, xlim=line, ylim=line)
+        axes.set(
+            xlabel="true error",
+            ylabel="" if k else "accuracy as stated",
+            title=title,
+            xlim=line,
+            ylim=line,
+        )
         axes.title.set_fontsize(8)
     axes.legend(loc="upper left")
     return figure
@@ -152,14 +169,33 @@ def draw_floor(errors, lines):
         for element in COLOURS:
             style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}
             for family, look in (("smooth", "-"), ("patch", (0, (4, 2)))):
-                own = [r for r in errors if (r["element"], r["family"]) == (element, family) and r[norm] > 0]
+                own = [
+                    r
+                    for r in errors
+                    if (r["element"], r["family"]) == (element, family) and r[norm] > 0
+                ]
                 label = f"{NAMES[element]}, {'error' if family == 'smooth' else 'round-off'}"
-                axes.plot([1 / r["n"] for r in own], [r[norm] for r in own], linestyle=look, label=label, **style)
+                axes.plot(
+                    [1 / r["n"] for r in own],
+                    [r[norm] for r in own],
+                    linestyle=look,
+                    label=label,
+                    **style,
+                )
             exponent, factor = lines[element]
-            widths = [1 / r["n"] for r in errors if (r["element"], r["family"]) == (element, "patch")]
+            widths = [
+                1 / r["n"] for r in errors if (r["element"], r["family"]) == (element, "patch")
+            ]
             bound = [EPS * factor * h**-exponent for h in widths]
             label = f"eps times condition, {element}"
-            axes.plot(widths, bound, color=COLOURS[element], linewidth=0.6, linestyle=(0, (1, 1.5)), label=label)
+            axes.plot(
+                widths,
+                bound,
+                color=COLOURS[element],
+                linewidth=0.6,
+                linestyle=(0, (1, 1.5)),
+                label=label,
+            )
         levels = sorted({row["n"] for row in errors})
         axes.set_xticks([1 / n for n in levels[::-2]], [f"1/{n:.0f}" for n in levels[::-2]])
         axes.minorticks_off()
@@ -171,12 +207,14 @@ def draw_floor(errors, lines):
 
 @matplotlib.rc_context(SMALL)
 def draw_stretched(rows):
-    """Error of the patch test, stated accuracy, and eps times condition against the aspect of the cells.
+    """Error of the patch test, stated accuracy, and eps times condition against the aspect of the
+    cells.
 
     Parameters
     ----------
     rows : sequence of dict
-        ``element``, ``aspect``, ``error``, ``accuracy`` (None where the solve was refused), ``condition``, ``status``.
+        ``element``, ``aspect``, ``error``, ``accuracy`` (None where the solve was refused),
+        ``condition``, ``status``.
 
     Returns
     -------
@@ -193,7 +231,14 @@ def draw_stretched(rows):
         axes.plot(x, y, color=colour, label=f"{NAMES[element]}, error")
         axes.scatter(x, y, 9, filled, MARKERS[element], edgecolors=colour, zorder=3)
         stated = [row["accuracy"] for row in found]
-        axes.plot(x, stated, color=colour, linewidth=0.7, linestyle=(0, (4, 2)), label="accuracy as stated")
+        axes.plot(
+            x,
+            stated,
+            color=colour,
+            linewidth=0.7,
+            linestyle=(0, (4, 2)),
+            label="accuracy as stated",
+        )
         regular = [row for row in own if 0 < row["condition"] < 1 / EPS]
         bound = [[row["aspect"], EPS * row["condition"]] for row in regular]
         dotted = {"color": colour, "linewidth": 0.6, "linestyle": (0, (1, 1.5))}

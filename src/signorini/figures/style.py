@@ -10,7 +10,9 @@ from matplotlib.figure import Figure
 
 from signorini.storage import sealing
 
-TEXT_WIDTH = 150 / 25.4  # inches; \textwidth of paper/main.tex, so that figures are included unscaled
+TEXT_WIDTH = (
+    150 / 25.4
+)  # inches; \textwidth of paper/main.tex, so that figures are included unscaled
 
 BLACK, GREY, FAINT = "black", "0.35", "0.75"
 ACCENT = "#2a6ebb"  # prints as a middle grey
@@ -71,8 +73,8 @@ def save_figure(figure, path, colours=None):
     path : path-like
         Target, ending in ``.pdf`` or ``.png``; replaced in one step if it exists.
     colours : int, optional
-        At most 256: a PNG keeps so many of its colours, the most frequent, and the others become the nearest of these.
-        For pictures with large areas of few colours, a third of the size.
+        At most 256: a PNG keeps so many of its colours, the most frequent, and the others become
+        the nearest of these. For pictures with large areas of few colours, a third of the size.
 
     Raises
     ------
@@ -97,7 +99,9 @@ def _save_reduced(figure, stream, colours):
     picture = io.BytesIO()
     figure.savefig(picture, format="png")
     pixels = np.asarray(Image.open(picture).convert("RGB"), dtype=int)
-    found, place, count = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
+    found, place, count = np.unique(
+        pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True
+    )
     palette = found[np.argsort(-count, kind="stable")[:colours]]
     nearest = ((found[:, None] - palette) ** 2).sum(axis=2).argmin(axis=1).astype(np.uint8)
     reduced = Image.fromarray(nearest[place.ravel()].reshape(pixels.shape[:2]))

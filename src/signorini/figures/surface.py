@@ -13,10 +13,16 @@ ELEVATION, AZIMUTH = np.radians(27), np.radians(-60)  # of the eye, which stands
 HEIGHT = 0.62  # of the drawn box, whose base has sides of length 1
 MARGIN = 0.08  # between the surface and the floor, in heights of the surface
 TICK, NAME = 0.015, 0.16  # lengths of a tick and distance of an axis name, in sides of the base
-TICK_LABEL = ((0.07, "center"), (0.035, "left"), (0.03, "right"))  # distance and alignment on x, y, u
+TICK_LABEL = (
+    (0.07, "center"),
+    (0.035, "left"),
+    (0.03, "right"),
+)  # distance and alignment on x, y, u
 
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0])
-UP = np.array([-np.cos(AZIMUTH) * np.sin(ELEVATION), -np.sin(AZIMUTH) * np.sin(ELEVATION), np.cos(ELEVATION)])
+UP = np.array(
+    [-np.cos(AZIMUTH) * np.sin(ELEVATION), -np.sin(AZIMUTH) * np.sin(ELEVATION), np.cos(ELEVATION)]
+)
 
 
 @dataclass(frozen=True)
@@ -39,9 +45,13 @@ class Box:
         return (unit + shift) @ np.stack([RIGHT, UP], axis=1)
 
     def lines(self, *paths):
-        """Return the images of `paths`, each a list of corners such as "011": 0 is low and 1 is high."""
+        """Return the images of `paths`, each a list of corners such as "011": 0 is low and 1 is
+        high.
+        """
         corners = np.stack([self.low, self.high])
-        return [self.image(*([corners[int(c[k]), k] for c in path] for k in range(3))) for path in paths]
+        return [
+            self.image(*([corners[int(c[k]), k] for c in path] for k in range(3))) for path in paths
+        ]
 
 
 @matplotlib.rc_context(STYLE)
@@ -51,9 +61,11 @@ def draw_surface(surface):
     Parameters
     ----------
     surface : mapping of str to ndarray
-        ``x`` (m,), ``y`` (k,) and ``u`` (k, m), u[j, i] at (x_i, y_j); ``contact_x`` and ``contact_u`` (p,)
-        along the contact side; ``critical_points`` (c, 2). An obstacle other than zero is given as
-        ``contact_obstacle`` (p,); where ``contact_u`` does not exceed it, it binds. All dimensionless.
+        ``x`` (m,), ``y`` (k,) and ``u`` (k, m), u[j, i] at (x_i, y_j); ``contact_x`` and
+        ``contact_u`` (p,) along the contact side; ``critical_points`` (c, 2). An obstacle other
+        than zero is given as
+        ``contact_obstacle`` (p,); where ``contact_u`` does not exceed it, it binds. All
+        dimensionless.
 
     Returns
     -------
@@ -102,7 +114,9 @@ def _draw_wires(axes, points):
     """Paint the cells from the back to the front: each white face hides what lies behind it."""
     cells = np.stack([points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]], axis=2)
     back_to_front = cells[::-1].reshape(-1, 4, 2)  # y grows away from the eye, x towards it
-    wires = PolyCollection(back_to_front, facecolor="white", edgecolor=GREY, linewidth=0.3, zorder=3)
+    wires = PolyCollection(
+        back_to_front, facecolor="white", edgecolor=GREY, linewidth=0.3, zorder=3
+    )
     axes.add_collection(wires)
 
 
@@ -118,7 +132,12 @@ def _draw_contact(axes, box, surface):
     }
     for label, (height, style) in styles.items():
         axes.plot(*box.image(x, y, height).T, label=label, zorder=4, **style)
-    marker = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5, "linestyle": "none"}
+    marker = {
+        "markerfacecolor": "white",
+        "markeredgecolor": BLACK,
+        "markersize": 5.5,
+        "linestyle": "none",
+    }
     for k, (px, py) in enumerate(surface["critical_points"]):
         point = box.image(px, py, np.interp(px, x, obstacle))
         axes.plot(*point, "o", zorder=5, label="_" if k else "critical point", **marker)

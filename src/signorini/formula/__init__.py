@@ -1,4 +1,6 @@
-"""Formulas in x and y typed by a user: read without trust, evaluated on arrays, differentiated exactly."""
+"""Formulas in x and y typed by a user: read without trust, evaluated on arrays, differentiated
+exactly.
+"""
 
 import dataclasses
 
@@ -28,29 +30,33 @@ class Formula:
     Notes
     -----
     Variables
-        `x`, `y`, `r` = sqrt(x**2 + y**2), `theta` = atan2(y, x) in (-pi, pi]. A coordinate -0.0 counts as
-        0.0: the same point has the same value.
+        `x`, `y`, `r` = sqrt(x**2 + y**2), `theta` = atan2(y, x) in (-pi, pi]. A coordinate -0.0
+        counts as 0.0: the same point has the same value.
     Constants
         Decimal numbers, each a double, `pi` and `e`.
     Operators
         `+ - * / **` with Python's precedence: -x**2 is -(x**2) and 2**3**2 is 2**9.
     Functions
         `sqrt exp log sin cos tan asin acos atan sinh cosh tanh abs sign floor ceil`, `atan2(y, x)`,
-        `hypot(x, y)`, `min` and `max` of two or more, `pos(t)` = max(t, 0), `step(t)` = 1 if t >= 0, else 0.
+        `hypot(x, y)`, `min` and `max` of two or more, `pos(t)` = max(t, 0), `step(t)` = 1 if t >=
+        0, else 0.
     Conditions
-        `< <= > >= == !=`, chains such as 0 < x < 1, `and`, `or`, `not`. They stand in the first argument of
-        `where(condition, a, b)`, nowhere else, and are no numbers. A NaN in the branch not taken is harmless;
-        where a condition hangs on a NaN, the result is NaN.
+        `< <= > >= == !=`, chains such as 0 < x < 1, `and`, `or`, `not`. They stand in the first
+        argument of `where(condition, a, b)`, nowhere else, and are no numbers. A NaN in the branch
+        not taken is harmless; where a condition hangs on a NaN, the result is NaN.
     Signed zeros
-        As in IEEE 754, up to the result: -2*x*y is -0.0 at (1, 0), and atan2(-2*x*y, -1) there -pi, the limit from
-        y > 0. Only of zeros of both signs `min` and `max` take either. A result of zero has no sign.
+        As in IEEE 754, up to the result: -2*x*y is -0.0 at (1, 0), and atan2(-2*x*y, -1) there -pi,
+        the limit from y > 0. Only of zeros of both signs `min` and `max` take either. A result of
+        zero has no sign.
     Derivatives
-        At a kink: of the branch taken in `where`; from the right (t >= 0) in `abs` and `pos`; of the first of
-        equal arguments in `min` and `max`; zero for `sign`, `step`, `floor`, `ceil`. Not finite at r = 0 for
-        `r` and `theta`, nor the second one of pos(x)**1.5 for x < 0: write where(x > 0, x**1.5, 0).
+        At a kink: of the branch taken in `where`; from the right (t >= 0) in `abs` and `pos`; of
+        the first of equal arguments in `min` and `max`; zero for `sign`, `step`, `floor`, `ceil`.
+        Not finite at r = 0 for `r` and `theta`, nor the second one of pos(x)**1.5 for x < 0: write
+        where(x > 0, x**1.5, 0).
 
     Arithmetic is done as written, in double precision. Constant exponents 0, 1/2, 1, ..., 8, their
-    negatives, `r` and `hypot` use products, quotients and square roots only: the same bits on every platform.
+    negatives, `r` and `hypot` use products, quotients and square roots only: the same bits on every
+    platform.
 
     Examples
     --------
@@ -70,12 +76,16 @@ class Formula:
 
     @property
     def variables(self):
-        """Names among "x" and "y" that the text mentions, a frozenset; `r` and `theta` mention both."""
+        """Names among "x" and "y" that the text mentions, a frozenset; `r` and `theta` mention
+        both.
+        """
         return frozenset(step.name for step in self.program) & {"x", "y"}
 
     @property
     def constant(self):
-        """The value as a float if the text mentions no variable, else None; FormulaError if not finite."""
+        """The value as a float if the text mentions no variable, else None; FormulaError if not
+        finite.
+        """
         return None if self.variables else float(self(0.0, 0.0))
 
     def __call__(self, x, y, *, check=True):
@@ -96,7 +106,8 @@ class Formula:
         Raises
         ------
         FormulaError
-            At the first point where the value is NaN (as for sqrt(-1): nothing is complex) or infinite.
+            At the first point where the value is NaN (as for sqrt(-1): nothing is complex) or
+            infinite.
         """
         return self.expand(("value",), x, y, check)[0]
 
@@ -119,7 +130,9 @@ class Formula:
         return self.expand(("laplacian",), x, y, check)[0]
 
     def expand(self, wanted, x, y, check=True):
-        """Evaluate several of `taylor.QUANTITIES` at once: a list of arrays; `check` and errors as in a call."""
+        """Evaluate several of `taylor.QUANTITIES` at once: a list of arrays; `check` and errors as
+        in a call.
+        """
         # Importing numpy takes 0.1 s, and reading a formula needs none of it.
         from signorini.formula.taylor import expand
 
@@ -129,7 +142,9 @@ class Formula:
         return found
 
     def _name_non_finite(self, wanted, x, y):
-        """FormulaError for the first value that is not finite, of the formula or what is derived from it on the way."""
+        """FormulaError for the first value that is not finite, of the formula or what is derived
+        from it on the way.
+        """
         from signorini.formula.taylor import expand, first_non_finite
 
         def first_bad(name):
@@ -137,7 +152,9 @@ class Formula:
 
         if not any(map(first_bad, ("value", *wanted))):
             return
-        for name in dict.fromkeys(step for quantity in wanted for step in _ON_THE_WAY.get(quantity, (quantity,))):
+        for name in dict.fromkeys(
+            step for quantity in wanted for step in _ON_THE_WAY.get(quantity, (quantity,))
+        ):
             bad = first_bad(name)
             if bad:
                 raise FormulaError(
@@ -146,7 +163,8 @@ class Formula:
                 )
 
 
-# What is looked at, in this order, where a quantity is not finite: the first that is not is the one to name.
+# What is looked at, in this order, where a quantity is not finite: the first that is not is the one
+# to name.
 _ON_THE_WAY = {
     "d/dx": ("value", "d/dx"),
     "d/dy": ("value", "d/dy"),
@@ -162,5 +180,7 @@ class Partial:
     axis: str
 
     def __call__(self, x, y, *, check=True):
-        """Evaluate at points; shapes, `check` and errors as for a formula, whose value is checked too."""
+        """Evaluate at points; shapes, `check` and errors as for a formula, whose value is checked
+        too.
+        """
         return self.formula.expand((f"d/d{self.axis}",), x, y, check)[0]

@@ -1,8 +1,10 @@
-"""Expressions in x and y as a graph, in which each distinct one stands once, and code that evaluates some of them.
+"""Expressions in x and y as a graph, in which each distinct one stands once, and code that
+evaluates some of them.
 
-What several results share is computed once; what depends on one coordinate alone keeps that coordinate's shape; what
-no result needs is never computed, and constants are folded. A derivative that vanishes by its form, as that of y along
-x, is `Graph.zero`: it takes part in no product, where an infinite slope times zero would give NaN.
+What several results share is computed once; what depends on one coordinate alone keeps that
+coordinate's shape; what no result needs is never computed, and constants are folded. A derivative
+that vanishes by its form, as that of y along x, is `Graph.zero`: it takes part in no product, where
+an infinite slope times zero would give NaN.
 """
 
 from collections.abc import Callable
@@ -32,7 +34,9 @@ class Graph:
         if all(term.name == "number" for term in terms):
             with np.errstate(all="ignore"):
                 return self.number(_function(name, value)(*(term.value for term in terms)))
-        return self._only(name, tuple(self.number(0.0) if term is self.zero else term for term in terms), value)
+        return self._only(
+            name, tuple(self.number(0.0) if term is self.zero else term for term in terms), value
+        )
 
     def number(self, value):
         """A constant; two of the same bits are one."""
@@ -43,9 +47,11 @@ class Graph:
         return self._only(name, (), None)
 
     def bound(self, expression, level=0):
-        """An expression for a number that no value of `expression` exceeds in size; not finite where one is not.
+        """An expression for a number that no value of `expression` exceeds in size; not finite
+        where one is not.
 
-        Sums and products of factors in one coordinate each are bounded by those of the factors, which are few values.
+        Sums and products of factors in one coordinate each are bounded by those of the factors,
+        which are few values.
         """
         if expression.name in _BOUNDS and len(expression.variables) == 2 and level < _DEEPEST:
             parts = [self.bound(term, level + 1) for term in expression.terms]
@@ -60,7 +66,10 @@ class Graph:
 
 
 class Expression:
-    """A step on other expressions of its graph; arithmetic makes new ones. Equal only if identical."""
+    """A step on other expressions of its graph; arithmetic makes new ones.
+
+    Equal only if identical.
+    """
 
     __slots__ = ("graph", "name", "terms", "value", "variables")
 
@@ -150,7 +159,9 @@ def _largest(values):
 
 
 class Instruction(NamedTuple):
-    """One step of code: where its result goes, what makes it of which results, and which are needed no more."""
+    """One step of code: where its result goes, what makes it of which results, and which are needed
+    no more.
+    """
 
     place: int
     function: Callable
@@ -159,7 +170,9 @@ class Instruction(NamedTuple):
 
 
 class Code(NamedTuple):
-    """Steps, the places of results, of x and y (or none), and what is known from the start, place by place."""
+    """Steps, the places of results, of x and y (or none), and what is known from the start, place
+    by place.
+    """
 
     instructions: tuple[Instruction, ...]
     results: tuple[int, ...]
@@ -175,7 +188,9 @@ def _function(name, value):
 
 
 def compile_code(graph, expressions):
-    """Code for some expressions of a graph, which are computed in the order in which they were made."""
+    """Code for some expressions of a graph, which are computed in the order in which they were
+    made.
+    """
     needed = _needed(expressions)
     ordered = [expression for expression in graph.known.values() if expression in needed]
     places = {expression: place for place, expression in enumerate(ordered)}
@@ -187,12 +202,23 @@ def compile_code(graph, expressions):
     for user in ordered:
         if user.terms:
             terms = tuple(places[term] for term in user.terms)
-            steps.append(Instruction(places[user], _function(user.name, user.value), terms, tuple(spent[user])))
+            steps.append(
+                Instruction(
+                    places[user], _function(user.name, user.value), terms, tuple(spent[user])
+                )
+            )
     return Code(
         tuple(steps),
         tuple(places[expression] for expression in expressions),
-        {expression.name: place for expression, place in places.items() if expression.name in ("x", "y")},
-        tuple(float(e.value) if e.name == "number" else 0.0 if e is graph.zero else None for e in ordered),
+        {
+            expression.name: place
+            for expression, place in places.items()
+            if expression.name in ("x", "y")
+        },
+        tuple(
+            float(e.value) if e.name == "number" else 0.0 if e is graph.zero else None
+            for e in ordered
+        ),
     )
 
 
@@ -207,10 +233,11 @@ def _needed(expressions):
 
 
 def evaluate(code, x, y):
-    """Results of code at points: arrays that broadcast against each other to the shape of the points, or less.
+    """Results of code at points: arrays that broadcast against each other to the shape of the
+    points, or less.
 
-    What depends on x alone has the shape of x, so `x` and `y` need not be of one shape. An array is dropped after its
-    last use, so that the next one may take its place in the cache.
+    What depends on x alone has the shape of x, so `x` and `y` need not be of one shape. An array is
+    dropped after its last use, so that the next one may take its place in the cache.
     """
     found, coordinates = list(code.start), {"x": x, "y": y}
     for name, place in code.variables.items():

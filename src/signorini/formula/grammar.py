@@ -1,7 +1,7 @@
 """Read a formula into a postfix program.
 
-The text never reaches Python's own parser or compiler. An operator-precedence reader accepts the language and
-nothing else; it does not recurse, so deeply nested text exhausts no stack.
+The text never reaches Python's own parser or compiler. An operator-precedence reader accepts the
+language and nothing else; it does not recurse, so deeply nested text exhausts no stack.
 """
 
 import math
@@ -15,7 +15,16 @@ MAX_LEVELS = 50
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 LOGIC = ("and", "or", "not")
 # How strongly an operator binds, as in Python.
-BINARY = {"or": 1, "and": 2, **dict.fromkeys(COMPARISONS, 4), "+": 5, "-": 5, "*": 6, "/": 6, "**": 8}
+BINARY = {
+    "or": 1,
+    "and": 2,
+    **dict.fromkeys(COMPARISONS, 4),
+    "+": 5,
+    "-": 5,
+    "*": 6,
+    "/": 6,
+    "**": 8,
+}
 PREFIX = {"not": ("not", 3), "-": ("negative", 7), "+": ("positive", 7)}
 
 FOLD = {
@@ -56,7 +65,9 @@ class Pending(NamedTuple):
 
 
 class Operand(NamedTuple):
-    """What a value on the stack is: a condition or a number, and which one if plain arithmetic tells."""
+    """What a value on the stack is: a condition or a number, and which one if plain arithmetic
+    tells.
+    """
 
     condition: bool = False
     constant: float | None = None
@@ -104,7 +115,9 @@ class Reader:
             self.waiting.append(Pending(name, token, binds, 1))
             return True
         if kind not in ("name", "call"):
-            raise self.error(f"{text} where a value is expected", column, "write a number, a name or (")
+            raise self.error(
+                f"{text} where a value is expected", column, "write a number, a name or ("
+            )
         if text not in KNOWN:
             raise self.source.unknown(token)
         if kind == "call":
@@ -114,7 +127,9 @@ class Reader:
     def open(self, token):
         """Open a parenthesis, of a group or of a call."""
         if sum(pending.binds == 0 for pending in self.waiting) == MAX_LEVELS:
-            raise self.error(f"more than {MAX_LEVELS} nested levels", token.column, "simplify the formula")
+            raise self.error(
+                f"more than {MAX_LEVELS} nested levels", token.column, "simplify the formula"
+            )
         self.waiting.append(Pending(token.text, token, 0, 1))
 
     def after_value(self, token, before):
@@ -183,16 +198,22 @@ class Reader:
         for place, operand in enumerate(operands):
             wanted = name in LOGIC or (name == "where" and place == 0)
             if wanted and not operand.condition:
-                raise self.error(f"{token.text} without a condition", token.column, "write one, as x > 0")
+                raise self.error(
+                    f"{token.text} without a condition", token.column, "write one, as x > 0"
+                )
             if operand.condition and not wanted:
                 remedy = "write where(condition, 1, 0) for a number"
-                raise self.error(f"condition in place of a number for {token.text}", token.column, remedy)
+                raise self.error(
+                    f"condition in place of a number for {token.text}", token.column, remedy
+                )
         constant = self.fold(name, token, [operand.constant for operand in operands])
         self.operands[-arity:] = [Operand(name in (*LOGIC, "compare"), constant)]
         self.steps.append(Step(name, arity, signs))
 
     def fold(self, name, token, values):
-        """Result of plain arithmetic on constants, else None; a power among them must be real and finite."""
+        """Result of plain arithmetic on constants, else None; a power among them must be real and
+        finite.
+        """
         if name not in FOLD or None in values:
             return None
         try:
@@ -200,5 +221,7 @@ class Reader:
         except (OverflowError, ZeroDivisionError):
             result = math.nan
         if name == "**" and (isinstance(result, complex) or not math.isfinite(result)):
-            raise self.error("constant power that is not real and finite", token.column, "change its exponent")
+            raise self.error(
+                "constant power that is not real and finite", token.column, "change its exponent"
+            )
         return result

@@ -1,6 +1,7 @@
 """The words of a formula: its text cut into tokens, and what to say of text that has other words.
 
-Neither this module nor `grammar` imports numpy: formulas are already read while a Snakefile is parsed.
+Neither this module nor `grammar` imports numpy: formulas are already read while a Snakefile is
+parsed.
 """
 
 import difflib
@@ -18,7 +19,9 @@ CONSTANTS = {"pi": math.pi, "e": math.e}
 # Least and greatest number of arguments.
 FUNCTIONS = {
     **dict.fromkeys(("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan"), (1, 1)),
-    **dict.fromkeys(("sinh", "cosh", "tanh", "abs", "pos", "sign", "step", "floor", "ceil"), (1, 1)),
+    **dict.fromkeys(
+        ("sinh", "cosh", "tanh", "abs", "pos", "sign", "step", "floor", "ceil"), (1, 1)
+    ),
     **dict.fromkeys(("atan2", "hypot"), (2, 2)),
     **dict.fromkeys(("min", "max"), (2, math.inf)),
     "where": (3, 3),
@@ -83,7 +86,9 @@ def as_text(value, field):
     if isinstance(value, str):
         return value
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise FormulaError(f"{field}: a formula is text or a number, not {type(value).__name__}; write 0 or x*y")
+        raise FormulaError(
+            f"{field}: a formula is text or a number, not {type(value).__name__}; write 0 or x*y"
+        )
     try:
         number = float(value)
     except OverflowError:
@@ -101,7 +106,9 @@ class Source:
 
     def error(self, problem, column, remedy):
         """One-line error that names the field, the place and the remedy."""
-        return FormulaError(f"{self.field}: {problem} at column {column} of {shorten(self.text)}; {remedy}")
+        return FormulaError(
+            f"{self.field}: {problem} at column {column} of {shorten(self.text)}; {remedy}"
+        )
 
     def tokens(self):
         """All tokens and an "end"; the name of a function takes its opening parenthesis along."""
@@ -127,24 +134,32 @@ class Source:
         if suffix in ("j", "J"):
             raise self.error(f"complex number {shown}", column, "a formula is real")
         if suffix:
-            raise self.error(f"{shown} is no number", column, f"{_TIMES}, and numbers as 0.5 or 1e-3")
+            raise self.error(
+                f"{shown} is no number", column, f"{_TIMES}, and numbers as 0.5 or 1e-3"
+            )
         if re.match(r"0\d", digits):
             raise self.error(f"leading zero in {shown}", column, "write the number without it")
         if value == math.inf or (value == 0 and re.match(r"[0.]*[1-9]", digits)):
-            raise self.error(f"number {shown} out of range", column, "a double holds 5e-324 to 1.8e308")
+            raise self.error(
+                f"number {shown} out of range", column, "a double holds 5e-324 to 1.8e308"
+            )
 
     def stray(self, token):
         """Error for a character that no formula has."""
         shown = ascii(token.text)
         if not token.text.isascii():
             shown = f"non-ASCII U+{ord(token.text):04X} {unicodedata.name(token.text, '')}".strip()
-        remedy = REMEDIES.get(token.text, "use names, numbers and + - * / ** ( ) , < <= > >= == != only")
+        remedy = REMEDIES.get(
+            token.text, "use names, numbers and + - * / ** ( ) , < <= > >= == != only"
+        )
         return self.error(f"unexpected {shown}", token.column, remedy)
 
     def unknown(self, token):
         """Error for an unknown name, with the nearest known one."""
         name = token.text
-        near = difflib.get_close_matches(name, KNOWN, 1) or difflib.get_close_matches(name.lower(), KNOWN, 1)
+        near = difflib.get_close_matches(name, KNOWN, 1) or difflib.get_close_matches(
+            name.lower(), KNOWN, 1
+        )
         remedy = f"did you mean {near[0]}?" if near else "mind the spelling"
         if set(name) <= set("xyr"):
             remedy = f"write {'*'.join(name[:20])}"

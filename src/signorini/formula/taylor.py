@@ -1,4 +1,6 @@
-"""Derivatives of a program as expressions, by forward mode: each value travels with its first two along one axis."""
+"""Derivatives of a program as expressions, by forward mode: each value travels with its first two
+along one axis.
+"""
 
 from functools import lru_cache, partial, reduce
 from typing import NamedTuple
@@ -26,7 +28,9 @@ def _step(name):
     return lambda u, *terms: u.graph.apply(name, u, *terms)
 
 
-sqrt, exp, sin, cos, tan, sinh, cosh, tanh = map(_step, ("sqrt", "exp", "sin", "cos", "tan", "sinh", "cosh", "tanh"))
+sqrt, exp, sin, cos, tan, sinh, cosh, tanh = map(
+    _step, ("sqrt", "exp", "sin", "cos", "tan", "sinh", "cosh", "tanh")
+)
 hypot, atan2, where, step = map(_step, ("hypot", "atan2", "where", "step"))
 
 
@@ -56,7 +60,9 @@ SLOPES = {
 
 
 def chain(value, slope, bend, t):
-    """Chain rule from g' and g''; multiplied left to right, lest du*du overflow beside a small bend."""
+    """Chain rule from g' and g''; multiplied left to right, lest du*du overflow beside a small
+    bend.
+    """
     zero = value.graph.zero
     slope, bend = (zero if factor is None else factor for factor in (slope, bend))
     return Jet(value, slope * t.du, bend * t.du * t.du + slope * t.ddu)
@@ -89,7 +95,9 @@ def _unless(exceptions, p, make):
     """An expression, or zero where the exponent is one of the exceptions."""
     if p.name == "number":
         return None if p.value in exceptions else make()
-    return reduce(lambda found, exception: where(compare("==", p, exception), 0.0, found), exceptions, make())
+    return reduce(
+        lambda found, exception: where(compare("==", p, exception), 0.0, found), exceptions, make()
+    )
 
 
 def polar(a, b):
@@ -133,7 +141,9 @@ RULES = {
 
 
 def apply(name, *jets, signs=None):
-    """Result of one step; those without a rule or slope (sign, step, floor, ceil, conditions) are flat."""
+    """Result of one step; those without a rule or slope (sign, step, floor, ceil, conditions) are
+    flat.
+    """
     varies = not all(jet.flat for jet in jets)
     if varies and name in RULES:
         return RULES[name](*jets)

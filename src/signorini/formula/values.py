@@ -1,7 +1,7 @@
 """What each step of a program does to arrays of numbers.
 
-A condition is 1.0, 0.0, or NaN where a NaN was compared. Such a NaN reaches the result unless the condition
-is decided without it: an undefined condition is never taken for a false one.
+A condition is 1.0, 0.0, or NaN where a NaN was compared. Such a NaN reaches the result unless the
+condition is decided without it: an undefined condition is never taken for a false one.
 """
 
 from functools import reduce
@@ -13,12 +13,18 @@ _SAFE = 2.0**-400
 
 
 def hypot(a, b):
-    """sqrt(a*a + b*b), scaled by a power of two: it cannot overflow, and does not depend on the platform.
+    """sqrt(a*a + b*b), scaled by a power of two: it cannot overflow, and does not depend on the
+    platform.
 
-    Where no square comes near the ends of the range, the scaling would change no bit, and is left out.
+    Where no square comes near the ends of the range, the scaling would change no bit, and is left
+    out.
     """
     sizes = np.abs(a), np.abs(b)
-    if all(map(np.size, sizes)) and max(map(np.min, sizes)) > _SAFE and max(map(np.max, sizes)) < 1.0 / _SAFE:
+    if (
+        all(map(np.size, sizes))
+        and max(map(np.min, sizes)) > _SAFE
+        and max(map(np.max, sizes)) < 1.0 / _SAFE
+    ):
         return np.sqrt(a * a + b * b)
     _, k = np.frexp(np.maximum(*sizes))
     a, b = np.ldexp(a, -k), np.ldexp(b, -k)
@@ -26,7 +32,9 @@ def hypot(a, b):
 
 
 def power(u, p):
-    """u**p; small multiples of 1/2 by products and sqrt, for the same bits everywhere and exact scaling."""
+    """u**p; small multiples of 1/2 by products and sqrt, for the same bits everywhere and exact
+    scaling.
+    """
     if np.ndim(p) or not abs(p) <= EXACT_POWERS or 2 * p != np.floor(2 * p):
         return np.power(u, p)
     if p < 0:
@@ -51,7 +59,10 @@ def either(a, b):
 def compare(signs, *terms):
     """Chain of comparisons between neighbouring terms."""
     links = zip(signs, terms[:-1], terms[1:], strict=True)
-    return reduce(both, (np.where(np.isnan(a) | np.isnan(b), np.nan, SIGNS[sign](a, b)) for sign, a, b in links))
+    return reduce(
+        both,
+        (np.where(np.isnan(a) | np.isnan(b), np.nan, SIGNS[sign](a, b)) for sign, a, b in links),
+    )
 
 
 def select(condition, a, b):

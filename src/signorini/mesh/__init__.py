@@ -1,1 +1,3 @@
-"""Triangulations with named boundaries: uniform grids as arithmetic, anything else through scikit-fem."""
+"""Triangulations with named boundaries: uniform grids as arithmetic, anything else through
+scikit-fem.
+"""

@@ -5,9 +5,11 @@ SIDES = ("bottom", "right", "top", "left")  # the parts of a rectangle's boundar
 
 
 def by_formula(boundary):
-    """Whether the section ``boundary`` maps labels to formulas, rather than names of parts to labels.
+    """Whether the section ``boundary`` maps labels to formulas, rather than names of parts to
+    labels.
 
-    A label is no formula: where every value is one, the keys are names of parts, whatever they read.
+    A label is no formula: where every value is one, the keys are names of parts, whatever they
+    read.
 
     Examples
     --------
@@ -16,7 +18,9 @@ def by_formula(boundary):
     >>> by_formula({"contact": "contact", "neumann": "dirichlet"})  # groups of a mesh file with such names
     False
     """
-    return any(name in LABELS for name in boundary) and not all(value in LABELS for value in boundary.values())
+    return any(name in LABELS for name in boundary) and not all(
+        value in LABELS for value in boundary.values()
+    )
 
 
 def labels_of(boundary):

@@ -1,4 +1,6 @@
-"""How many cells a level cuts a rectangle into; arithmetic alone, so that scenes are checked with it."""
+"""How many cells a level cuts a rectangle into; arithmetic alone, so that scenes are checked with
+it.
+"""
 
 from signorini.exceptions import MeshError
 

@@ -1,4 +1,6 @@
-"""Is it a triangulation? What no mesh library asks: coincident points, folds, overlaps, hanging nodes, resolution."""
+"""Is it a triangulation? What no mesh library asks: coincident points, folds, overlaps, hanging
+nodes, resolution.
+"""
 
 import warnings
 
@@ -8,8 +10,12 @@ from signorini.exceptions import MeshError
 from signorini.mesh.facets import unique_facets
 from signorini.mesh.outline import cross, outline_defect
 
-EXTENTS = (1e-100, 1e100)  # of a domain: areas, and their products with data, then neither under- nor overflow
-# A cell must span this many units in the last place of its coordinates, so that areas hold four digits or more.
+EXTENTS = (
+    1e-100,
+    1e100,
+)  # of a domain: areas, and their products with data, then neither under- nor overflow
+# A cell must span this many units in the last place of its coordinates, so that areas hold four
+# digits or more.
 RESOLVED = 2.0**16
 # Twice the area over the square of the diameter below which a triangle of the scaled mesh is flat.
 FLAT = 1e-12
@@ -40,9 +46,10 @@ def check_triangulation(p, t, source="mesh"):
     Raises
     ------
     MeshError
-        No triangle; a coordinate that is not finite; a vertex number out of range; coordinates too coarse for the
-        cells; two vertices in one point; a triangle without area; two equal triangles; a facet in three
-        triangles; triangles that overlap; a vertex inside a facet (hanging node).
+        No triangle; a coordinate that is not finite; a vertex number out of range; coordinates too
+        coarse for the cells; two vertices in one point; a triangle without area; two equal
+        triangles; a facet in three triangles; triangles that overlap; a vertex inside a facet
+        (hanging node).
 
     Warns
     -----
@@ -74,13 +81,20 @@ def check_resolution(lower, upper, spacing, source="mesh"):
     Raises
     ------
     MeshError
-        If a cell spans fewer than 2**16 neighbouring floating-point numbers, or the box is not of a size in `EXTENTS`.
+        If a cell spans fewer than 2**16 neighbouring floating-point numbers, or the box is not of a
+        size in `EXTENTS`.
     """
     extent = float(np.max(np.subtract(upper, lower)))
-    if extent and not EXTENTS[0] <= extent <= EXTENTS[1]:  # none at all, far from the origin, is a lack of resolution
-        raise MeshError(f"{source}: extends over {extent:.3g}; choose a unit of length in which it is not as extreme")
+    if (
+        extent and not EXTENTS[0] <= extent <= EXTENTS[1]
+    ):  # none at all, far from the origin, is a lack of resolution
+        raise MeshError(
+            f"{source}: extends over {extent:.3g}; choose a unit of length in which it is not as extreme"
+        )
     step = np.spacing(np.maximum(np.abs(lower), np.abs(upper)))
-    for axis, h, ulp, far in zip("xy", spacing, step, np.maximum(np.abs(lower), np.abs(upper)), strict=True):
+    for axis, h, ulp, far in zip(
+        "xy", spacing, step, np.maximum(np.abs(lower), np.abs(upper)), strict=True
+    ):
         if not h >= RESOLVED * ulp:
             raise MeshError(
                 f"{source}: cells of size {h:.3g} along {axis} are below the coordinate resolution, {ulp:.2g} at "
@@ -91,7 +105,8 @@ def check_resolution(lower, upper, spacing, source="mesh"):
 def coincident(p, q, size):
     """Two points that are equal up to a few units in the last place: a pair of numbers, or None.
 
-    `p` holds points, shape (2, nv), `q` the same scaled to the unit square, `size` the factors, shape (2, 1).
+    `p` holds points, shape (2, nv), `q` the same scaled to the unit square, `size` the factors,
+    shape (2, 1).
     """
     step = _COINCIDENT * np.spacing(np.abs(p).max(axis=1, keepdims=True)) / size
     # Two points nearer than half a cell share a cell in at least one of the four shifted grids.
@@ -112,21 +127,31 @@ def _as_arrays(p, t, source):
     """Plain arrays of the right shape, finite, with vertex numbers in range."""
     p, t = np.asarray(p), np.asarray(t)
     if p.ndim != 2 or p.shape[0] != 2 or p.dtype.kind not in "fiu":
-        raise MeshError(f"{source}: vertices have shape {p.shape}, type {p.dtype}; give real numbers of shape (2, nv)")
+        raise MeshError(
+            f"{source}: vertices have shape {p.shape}, type {p.dtype}; give real numbers of shape (2, nv)"
+        )
     if t.size == 0:
-        raise MeshError(f"{source}: the mesh is empty, it holds no triangle; mesh the surface, not only its boundary")
+        raise MeshError(
+            f"{source}: the mesh is empty, it holds no triangle; mesh the surface, not only its boundary"
+        )
     if t.ndim != 2 or t.shape[0] != 3 or t.dtype.kind not in "iu":
-        raise MeshError(f"{source}: triangles have shape {t.shape}, type {t.dtype}; give integers of shape (3, nt)")
+        raise MeshError(
+            f"{source}: triangles have shape {t.shape}, type {t.dtype}; give integers of shape (3, nt)"
+        )
     p, t = p.astype(np.float64), t.astype(np.int64)
     outside = (t < 0) | (t >= p.shape[1])
     if outside.any():
         k = int(np.argmax(outside.any(axis=0)))
         vertex = t[outside[:, k], k][0]
-        raise MeshError(f"{source}: triangle {k} uses vertex {vertex}, out of range; use 0 to {p.shape[1] - 1}")
+        raise MeshError(
+            f"{source}: triangle {k} uses vertex {vertex}, out of range; use 0 to {p.shape[1] - 1}"
+        )
     broken = ~np.isfinite(p).all(axis=0)
     if broken.any():
         k = int(np.argmax(broken))
-        raise MeshError(f"{source}: vertex {k} is at {_at(p, k)}; every coordinate must be a finite number")
+        raise MeshError(
+            f"{source}: vertex {k} is at {_at(p, k)}; every coordinate must be a finite number"
+        )
     return p, t
 
 
@@ -137,7 +162,10 @@ def _drop_unreferenced(p, t, source):
     if not used.all():
         lost = np.flatnonzero(~used)
         names = ", ".join(map(str, lost[:5])) + ", ..." * (lost.size > 5)
-        warnings.warn(f"{source}: {lost.size} vertices belong to no triangle and are dropped ({names})", stacklevel=3)
+        warnings.warn(
+            f"{source}: {lost.size} vertices belong to no triangle and are dropped ({names})",
+            stacklevel=3,
+        )
     return p[:, used], vertex_map[t], vertex_map
 
 
@@ -147,7 +175,9 @@ def _check_coordinates(p, t, source):
     with np.errstate(over="ignore"):
         size = upper - lower
     if not np.isfinite(size).all():
-        raise MeshError(f"{source}: coordinates reach {np.abs(p).max():.3g}; choose a larger unit of length")
+        raise MeshError(
+            f"{source}: coordinates reach {np.abs(p).max():.3g}; choose a larger unit of length"
+        )
     if not size.all():
         axis = int(np.argmin(size))
         raise MeshError(
@@ -163,31 +193,41 @@ def _check_points(p, q, size, source):
     pair = coincident(p, q, size)
     if pair:
         a, b = pair
-        raise MeshError(f"{source}: vertices {a} and {b} are both at {_at(p, a)}: a repeated vertex; merge the two")
+        raise MeshError(
+            f"{source}: vertices {a} and {b} are both at {_at(p, a)}: a repeated vertex; merge the two"
+        )
 
 
 def _oriented(p, q, t, size, source):
     """The triangles, counterclockwise; none without area, no two equal."""
     a, b, c = q[:, t[0]], q[:, t[1]], q[:, t[2]]
     area = cross(b - a, c - a)
-    diameter = np.max([((b - a) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0), ((c - b) ** 2).sum(axis=0)], axis=0)
+    diameter = np.max(
+        [((b - a) ** 2).sum(axis=0), ((c - a) ** 2).sum(axis=0), ((c - b) ** 2).sum(axis=0)], axis=0
+    )
     box = np.ptp(q[:, t], axis=1)
     rounding = np.spacing(np.abs(p[:, t]).max(axis=1)) / size
     uncertain = 2 * (rounding[0] * box[1] + rounding[1] * box[0])
     flat = np.abs(area) <= np.maximum(FLAT * diameter, uncertain)
     if flat.any():
         k = int(np.argmax(flat))
-        raise MeshError(f"{source}: triangle {k} at {_at(p, t[0, k])} has zero area; remove it or move its vertices")
+        raise MeshError(
+            f"{source}: triangle {k} at {_at(p, t[0, k])} has zero area; remove it or move its vertices"
+        )
     order = np.lexsort(np.sort(t, axis=0))
     same = np.flatnonzero((np.diff(np.sort(t, axis=0)[:, order], axis=1) == 0).all(axis=0))
     if same.size:
         k, j = sorted((int(order[same[0]]), int(order[same[0] + 1])))
-        raise MeshError(f"{source}: triangles {k} and {j} have the same vertices: a duplicate element; remove one")
+        raise MeshError(
+            f"{source}: triangles {k} and {j} have the same vertices: a duplicate element; remove one"
+        )
     return np.where(area > 0, t, t[[0, 2, 1]])
 
 
 def _check_topology(p, q, t, size, source):
-    """Facets in at most two triangles, on either side of them; a boundary that encloses the mesh once."""
+    """Facets in at most two triangles, on either side of them; a boundary that encloses the mesh
+    once.
+    """
     facets, t2f = unique_facets(t, p.shape[1])
     times = np.bincount(t2f.ravel())
     # 01 and 12 run counterclockwise, 02 against it.
@@ -195,12 +235,18 @@ def _check_topology(p, q, t, size, source):
     balance = np.bincount(t2f.ravel(), weights=forward.ravel())
     for wrong, problem, remedy in (
         (times > 2, "belongs to {} triangles", "a facet has one or two; remove the others"),
-        ((times == 2) & (balance != 0), "has both its triangles on one side: they overlap", "unfold the mesh there"),
+        (
+            (times == 2) & (balance != 0),
+            "has both its triangles on one side: they overlap",
+            "unfold the mesh there",
+        ),
     ):
         if wrong.any():
             k = int(np.argmax(wrong))
             (a, b), what = facets[:, k], problem.format(times[k])
-            raise MeshError(f"{source}: the facet from {_at(p, a)} to {_at(p, b)} (vertices {a}, {b}) {what}; {remedy}")
+            raise MeshError(
+                f"{source}: the facet from {_at(p, a)} to {_at(p, b)} (vertices {a}, {b}) {what}; {remedy}"
+            )
     boundary = times == 1
     edges = np.where(balance[boundary] > 0, facets[:, boundary], facets[::-1, boundary])
     resolution = 4 * float((np.spacing(np.abs(p).max(axis=1)) / size[:, 0]).max())
@@ -214,7 +260,10 @@ def _describe(defect, p, edges):
     kind, *where = defect
     if kind == "intricate":
         return f"the boundary is too intricate to verify ({where[0]} loops or pairs of facets); check for torn meshes"
-    ends = [f"the facet from {_at(p, a)} to {_at(p, b)} (vertices {a}, {b})" for a, b in edges[:, where[-1:]].T]
+    ends = [
+        f"the facet from {_at(p, a)} to {_at(p, b)} (vertices {a}, {b})"
+        for a, b in edges[:, where[-1:]].T
+    ]
     if kind == "touch":
         return f"vertex {where[0]} at {_at(p, where[0])} lies inside {ends[0]}: a hanging node; split that triangle"
     if kind == "cross":

@@ -1,7 +1,7 @@
 """The domain of a scene: what every level of its triangulations is made from.
 
-A rectangle is cut anew at every level, mostly into a `Grid`, which is arithmetic. Any other domain is triangulated
-once, its root, and every level is a uniform refinement of it.
+A rectangle is cut anew at every level, mostly into a `Grid`, which is arithmetic. Any other domain
+is triangulated once, its root, and every level is a uniform refinement of it.
 """
 
 import json
@@ -40,14 +40,21 @@ def make_domain(domain, boundary, coarsest):
     """
     if domain.get("kind", "rectangle") == "rectangle":
         keys = ("origin", "size", "diagonal", "cells")
-        return Rectangle(**{key: domain[key] for key in keys}, boundary=boundary, **_studies(domain))
+        return Rectangle(
+            **{key: domain[key] for key in keys}, boundary=boundary, **_studies(domain)
+        )
     from signorini.mesh.labels import labelled
 
     mesh = _root(domain, coarsest)
     if "perturb" in domain:
         mesh = _perturbed(mesh, domain["perturb"])
     width = _longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
-    return Refined(labelled(mesh, _rules(boundary)), coarsest, width, boundary if by_formula(boundary) else None)
+    return Refined(
+        labelled(mesh, _rules(boundary)),
+        coarsest,
+        width,
+        boundary if by_formula(boundary) else None,
+    )
 
 
 @dataclass(frozen=True)
@@ -99,21 +106,31 @@ class Rectangle:
         return math.prod(self.counts(n)) * (4 if self.diagonal == "criss-cross" else 2)
 
     def level(self, n):
-        """The triangulation of level n: a `Grid` where arithmetic describes it, else a `Triangulation`.
+        """The triangulation of level n: a `Grid` where arithmetic describes it, else a
+        `Triangulation`.
 
         Raises
         ------
         MeshError
-            If a side is not a whole number of cells, or the level is beyond the coordinates' resolution or the memory.
+            If a side is not a whole number of cells, or the level is beyond the coordinates'
+            resolution or the memory.
         """
         from signorini.mesh.check import check_resolution
 
-        counts, origin, size = self.counts(n), tuple(map(float, self.origin)), tuple(map(float, self.size))
+        counts, origin, size = (
+            self.counts(n),
+            tuple(map(float, self.origin)),
+            tuple(map(float, self.size)),
+        )
         upper = [a + b for a, b in zip(origin, size, strict=True)]
-        check_resolution(origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain")
+        check_resolution(
+            origin, upper, [b / k for b, k in zip(size, counts, strict=True)], "domain"
+        )
         check_memory(self.count_triangles(n), GRID if self.uniform else MESH, f"n = {n}")
         if self.uniform:
-            return Grid(*counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES))
+            return Grid(
+                *counts, origin, size, self.diagonal, tuple(self.boundary[side] for side in SIDES)
+            )
         return self._cut(counts, origin, size)
 
     def _cut(self, counts, origin, size):
@@ -165,7 +182,9 @@ class Refined:
         """Number of triangles of level n, which is not made; errors as for `level`."""
         ratio, rest = divmod(n, self.coarsest)
         if rest or ratio < 1 or ratio & (ratio - 1):
-            raise MeshError(f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it")
+            raise MeshError(
+                f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; double it"
+            )
         return ratio**2 * self.root.number_of_triangles
 
     def level(self, n):
@@ -188,7 +207,9 @@ class Refined:
             return finer
         from signorini.mesh.labels import NamedMesh, labelled_ends
 
-        return replace(finer, ends=labelled_ends(NamedMesh(finer.p, finer.t), _rules(self.boundary)))
+        return replace(
+            finer, ends=labelled_ends(NamedMesh(finer.p, finer.t), _rules(self.boundary))
+        )
 
     def mesh_size(self, n):
         """The mesh width h of level n: half the root's for each doubling of n; unit of length."""
@@ -226,7 +247,11 @@ def _rules(boundary):
         return boundary
     from signorini.formula import Formula
 
-    formulas = {label: Formula(text, f"boundary.{label}") for label, text in boundary.items() if text != "rest"}
+    formulas = {
+        label: Formula(text, f"boundary.{label}")
+        for label, text in boundary.items()
+        if text != "rest"
+    }
     rules = [(formula, label) for label, formula in formulas.items()]
     rest = [label for label, text in boundary.items() if text == "rest"]
     return rules + [(_none_of(formulas.values()), label) for label in rest]
@@ -244,15 +269,32 @@ def _none_of(formulas):
 
 
 def write_domain(path, domain):
-    """Store a domain with its coarsest triangulation: vertices, triangles, labelled facets, subdomains."""
+    """Store a domain with its coarsest triangulation: vertices, triangles, labelled facets,
+    subdomains.
+    """
     if isinstance(domain, Rectangle):
-        write_npz(path, kind="domain", specification=json.dumps({"kind": "rectangle"} | asdict(domain)))
+        write_npz(
+            path, kind="domain", specification=json.dumps({"kind": "rectangle"} | asdict(domain))
+        )
         return
-    specification = {"kind": "refined", "coarsest": domain.coarsest, "width": domain.width, "boundary": domain.boundary}
+    specification = {
+        "kind": "refined",
+        "coarsest": domain.coarsest,
+        "width": domain.width,
+        "boundary": domain.boundary,
+    }
     root = domain.root
     specification["subdomains"] = list(root.subdomains)
     members = {f"subdomain_{k}": found for k, found in enumerate(root.subdomains.values())}
-    write_npz(path, kind="domain", specification=json.dumps(specification), p=root.p, t=root.t, **root.ends, **members)
+    write_npz(
+        path,
+        kind="domain",
+        specification=json.dumps(specification),
+        p=root.p,
+        t=root.t,
+        **root.ends,
+        **members,
+    )
 
 
 def read_domain(path):

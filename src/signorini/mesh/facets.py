@@ -1,6 +1,8 @@
-"""Facets of triangles, numbered as scikit-fem numbers them: pairs of vertices in lexicographic order.
+"""Facets of triangles, numbered as scikit-fem numbers them: pairs of vertices in lexicographic
+order.
 
-Sorts are by counting, so that the cost is proportional to the number of facets whatever their order.
+Sorts are by counting, so that the cost is proportional to the number of facets whatever their
+order.
 """
 
 import numpy as np
@@ -36,8 +38,9 @@ def unique_facets(t, number_of_vertices):
 def refined_facets(parent, t):
     """`facets` and `t2f` of the mesh refined from `parent`, whose triangles are `t`.
 
-    Its facets are the halves of the parent's, numbered by arithmetic, and three inside each of the parent's triangles,
-    cutting off the vertices 0, 1 and 2: all of these end at new vertices, so they come last.
+    Its facets are the halves of the parent's, numbered by arithmetic, and three inside each of the
+    parent's triangles, cutting off the vertices 0, 1 and 2: all of these end at new vertices, so
+    they come last.
     """
     halves, count = 2 * parent.number_of_facets, parent.number_of_triangles
     facets = np.empty((2, halves + 3 * count), dtype=t.dtype)
@@ -58,35 +61,47 @@ def middles(mesh):
 
 
 def pair_keys(ends, count):
-    """A number for each pair of vertices below `count`, in the lexicographic order of the pairs, the smaller first."""
+    """A number for each pair of vertices below `count`, in the lexicographic order of the pairs,
+    the smaller first.
+    """
     return np.minimum(*ends).astype(np.int64) * count + np.maximum(*ends)
 
 
 def lexicographic_order(first, second, count):
-    """The order of pairs of numbers below `count`, equal ones as they come, shape (number of pairs,)."""
+    """The order of pairs of numbers below `count`, equal ones as they come, shape (number of
+    pairs,).
+    """
     if first.size <= _FEW:
         return np.lexsort([second, first])
     from scipy.sparse import coo_array
 
-    table = coo_array((np.arange(first.size, dtype=np.int32), (second, first)), shape=(count, count))
+    table = coo_array(
+        (np.arange(first.size, dtype=np.int32), (second, first)), shape=(count, count)
+    )
     table.has_canonical_format = True  # nothing is to be summed
     return table.tocsr().tocsc().data  # two counting sorts: by the second number, then by the first
 
 
 def _sorted(one, other):
-    """Pairs of numbers, the smaller first, shape (2, k); NumPy's sort is slow along so short an axis."""
+    """Pairs of numbers, the smaller first, shape (2, k); NumPy's sort is slow along so short an
+    axis.
+    """
     return np.stack([np.minimum(one, other), np.maximum(one, other)])
 
 
 def _halves(parent, facets):
-    """Numbers of the halves at the smaller and at the greater end of each of the parent's facets; fills in `facets`.
+    """Numbers of the halves at the smaller and at the greater end of each of the parent's facets;
+    fills in `facets`.
 
-    At a vertex, halves of facets that end there come before those that start there, for these have greater numbers.
+    At a vertex, halves of facets that end there come before those that start there, for these have
+    greater numbers.
     """
     start, end = parent.facets
     count, own = parent.number_of_vertices, np.arange(start.size, dtype=np.int32)
     order = lexicographic_order(end, own, max(count, own.size))
-    ended, started = (np.append(0, np.cumsum(np.bincount(v, minlength=count))) for v in (end, start))
+    ended, started = (
+        np.append(0, np.cumsum(np.bincount(v, minlength=count))) for v in (end, start)
+    )
     at_start, at_end = own + ended[1:].astype(np.int32)[start], np.empty_like(own)
     at_end[order] = own + started.astype(np.int32)[end[order]]
     facets[0, at_start], facets[0, at_end] = start, end

@@ -1,10 +1,13 @@
-"""Which files a mesh file stands for; known before it is read, with no more than the standard library."""
+"""Which files a mesh file stands for; known before it is read, with no more than the standard
+library.
+"""
 
 import html
 import re
 from pathlib import Path
 
-# Of an .xdmf, which keeps arrays in HDF5 files beside it: <DataItem Format="HDF">mesh.h5:/points</DataItem>
+# Of an .xdmf, which keeps arrays in HDF5 files beside it: <DataItem
+# Format="HDF">mesh.h5:/points</DataItem>
 _REFERENCE = re.compile(r"[>\[]\s*(\w[\w.-]*)\s*:")
 
 
@@ -18,8 +21,9 @@ def files_read(path):
     Returns
     -------
     list of Path
-        The file itself, whether or not there is one, and those that are there of the others: the HDF5 files that an
-        .xdmf names, the mesh functions ``<name>_*.xml`` beside a DOLFIN ``<name>.xml``.
+        The file itself, whether or not there is one, and those that are there of the others: the
+        HDF5 files that an .xdmf names, the mesh functions ``<name>_*.xml`` beside a DOLFIN
+        ``<name>.xml``.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -28,12 +32,18 @@ def files_read(path):
 
 
 def _named_within(path):
-    text = html.unescape(path.read_bytes().replace(b"\0", b"").decode("utf-8", "replace"))  # without UTF-16's zeros
+    text = html.unescape(
+        path.read_bytes().replace(b"\0", b"").decode("utf-8", "replace")
+    )  # without UTF-16's zeros
     return {path.with_name(name) for name in _REFERENCE.findall(text)}
 
 
 def _functions_beside(path):
-    return {other for other in path.parent.iterdir() if other.name.startswith(f"{path.stem}_") and ".xml" in other.name}
+    return {
+        other
+        for other in path.parent.iterdir()
+        if other.name.startswith(f"{path.stem}_") and ".xml" in other.name
+    }
 
 
 _OTHERS = {".xdmf": _named_within, ".xmf": _named_within, ".xml": _functions_beside}

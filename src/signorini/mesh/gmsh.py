@@ -1,4 +1,5 @@
-"""Gmsh's MSH 4.1, in text or binary, with every physical group of every entity; of these meshio keeps the first alone.
+"""Gmsh's MSH 4.1, in text or binary, with every physical group of every entity; of these meshio
+keeps the first alone.
 
 The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 """
@@ -67,13 +68,19 @@ def physical_names(content):
     list of (int, int, str)
         Dimension, number and name of each.
     """
-    section = re.search(rb"^\$PhysicalNames\s*$(.*?)^\$EndPhysicalNames", content, re.MULTILINE | re.DOTALL)
+    section = re.search(
+        rb"^\$PhysicalNames\s*$(.*?)^\$EndPhysicalNames", content, re.MULTILINE | re.DOTALL
+    )
     found = _NAME.findall(section[1]) if section else []
-    return [(int(dimension), int(number), name.decode(errors="replace")) for dimension, number, name in found]
+    return [
+        (int(dimension), int(number), name.decode(errors="replace"))
+        for dimension, number, name in found
+    ]
 
 
 def read_msh(content):
-    """Read MSH 4.1: also partitioned files, files with parametric nodes, and files with cells in no group.
+    """Read MSH 4.1: also partitioned files, files with parametric nodes, and files with cells in no
+    group.
 
     Parameters
     ----------
@@ -85,8 +92,8 @@ def read_msh(content):
     cells : dict of str to ndarray of int
         ``"line"`` (k, 2) and ``"triangle"`` (nt, 3), vertices counted from 0.
     groups : dict of str to dict of int to ndarray of int
-        For each kind of cell the number of each physical group -> its cells. A negative number in the file means
-        that the orientation is reversed, and belongs to the same group.
+        For each kind of cell the number of each physical group -> its cells. A negative number in
+        the file means that the orientation is reversed, and belongs to the same group.
 
     Raises
     ------
@@ -166,7 +173,9 @@ def _parsed(body):
         try:
             return np.fromstring(body, sep=" ")
         except (DeprecationWarning, ValueError):
-            raise MeshError("a section holds something else than numbers; write the file anew") from None
+            raise MeshError(
+                "a section holds something else than numbers; write the file anew"
+            ) from None
 
 
 def _reader(header):
@@ -248,7 +257,9 @@ def _elements(numbers):
         [count] = (int(number) for number in numbers.sizes(1))
         if element not in _ELEMENTS:
             kind = _OTHER_ELEMENTS.get(element, f"elements of type {element}")
-            raise MeshError(f"holds {count} {kind}; only triangles of three vertices (order 1) are supported")
+            raise MeshError(
+                f"holds {count} {kind}; only triangles of three vertices (order 1) are supported"
+            )
         kind, width = _ELEMENTS[element]
         rows = numbers.sizes(count * (1 + width)).reshape(count, 1 + width)
         found.append(((dimension, entity), kind, rows[:, 1:]))
@@ -265,7 +276,9 @@ def _numbered(tags, nodes):
     known = place < len(tags)
     known[known] = tags[order[place[known]]] == nodes[known]
     if not known.all():
-        raise MeshError(f"an element uses node {nodes[~known][0]}, which the file does not have; write the file anew")
+        raise MeshError(
+            f"an element uses node {nodes[~known][0]}, which the file does not have; write the file anew"
+        )
     return order[place]
 
 

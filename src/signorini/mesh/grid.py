@@ -1,7 +1,8 @@
-"""A uniform triangulation of a rectangle, known by arithmetic: nothing is searched, sorted or stored.
+"""A uniform triangulation of a rectangle, known by arithmetic: nothing is searched, sorted or
+stored.
 
-Vertices, triangles and facets are numbered as scikit-fem numbers them, so a vector of degrees of freedom
-means the same on ``grid.skfem`` (tests hold the two together).
+Vertices, triangles and facets are numbered as scikit-fem numbers them, so a vector of degrees of
+freedom means the same on ``grid.skfem`` (tests hold the two together).
 """
 
 from dataclasses import dataclass
@@ -14,7 +15,8 @@ from signorini.mesh.boundary import SIDES
 
 _CELLS_AT_ONCE = 2**15
 
-# Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle first.
+# Corners (in units of a cell) of the two triangles of a cell, counterclockwise, the right angle
+# first.
 CORNERS = {
     "falling": (((0, 0), (1, 0), (0, 1)), ((1, 1), (0, 1), (1, 0))),
     "rising": (((1, 0), (1, 1), (0, 0)), ((0, 1), (0, 0), (1, 1))),
@@ -118,9 +120,16 @@ class Grid:
 
     @property
     def t(self):
-        """Vertices of each triangle, shape (3, nt): all first triangles of the cells, then all second."""
+        """Vertices of each triangle, shape (3, nt): all first triangles of the cells, then all
+        second.
+        """
         v = self.vertex_numbers
-        return np.stack([np.concatenate([self.window(v, kind[k]).ravel() for kind in self.corners]) for k in range(3)])
+        return np.stack(
+            [
+                np.concatenate([self.window(v, kind[k]).ravel() for kind in self.corners])
+                for k in range(3)
+            ]
+        )
 
     def window(self, rows, corner):
         """The values of a vertex array at one corner of every cell, shape (ny, nx), a view."""
@@ -129,7 +138,9 @@ class Grid:
 
     @cached_property
     def _places(self):
-        """Where the horizontal, vertical and diagonal edges leaving a vertex row stand in it: pairs (places, edges)."""
+        """Where the horizontal, vertical and diagonal edges leaving a vertex row stand in it: pairs
+        (places, edges).
+        """
         end = 3 * self.nx
         v = (slice(1, end, 3), slice(0, -1)), (slice(end, None), slice(-1, None))
         if self.diagonal == "rising":
@@ -144,12 +155,16 @@ class Grid:
         return tuple(np.concatenate([row[places] for places, _ in pairs]) for pairs in self._places)
 
     def row_blocks(self):
-        """Ranges (first, last) of rows of cells, some `_CELLS_AT_ONCE` in each, so that temporaries stay in a cache."""
+        """Ranges (first, last) of rows of cells, some `_CELLS_AT_ONCE` in each, so that temporaries
+        stay in a cache.
+        """
         step = max(_CELLS_AT_ONCE // self.nx, 1)
         return [(first, min(first + step, self.ny)) for first in range(0, self.ny, step)]
 
     def _edge_rows(self, u):
-        """A vector over the facets as the edges leaving each vertex row, (ny, 3 nx + 1), and the top side's, (nx,)."""
+        """A vector over the facets as the edges leaving each vertex row, (ny, 3 nx + 1), and the
+        top side's, (nx,).
+        """
         width = 3 * self.nx + 1
         return u[: self.ny * width].reshape(self.ny, width), u[self.ny * width :]
 
@@ -160,7 +175,8 @@ class Grid:
         ----------
         u : ndarray, shape (number_of_facets,)
         first, last : int, optional
-            Rows of cells, from `first` to before `last`: their m rows of edges alone. By default all, m = ny.
+            Rows of cells, from `first` to before `last`: their m rows of edges alone. By default
+            all, m = ny.
 
         Returns
         -------
@@ -190,7 +206,9 @@ class Grid:
         return u
 
     def add_edges(self, u, first, horizontal, vertical, diagonal):
-        """Add to a vector over the facets, in place, values at the edges of the rows of cells from `first` on."""
+        """Add to a vector over the facets, in place, values at the edges of the rows of cells from
+        `first` on.
+        """
         rows, top = self._edge_rows(u)
         for pairs, values in zip(self._places, (horizontal, vertical, diagonal), strict=True):
             part = rows[first : first + len(values)]
@@ -200,10 +218,15 @@ class Grid:
             top += horizontal[-1]
 
     def facet_ends(self, facets):
-        """End vertices of facets given by their numbers, the smaller number first, shape (2, len(facets))."""
+        """End vertices of facets given by their numbers, the smaller number first, shape (2,
+        len(facets)).
+        """
         i = np.concatenate([np.arange(self.nx + 1)[: len(k)] for k in self._positions])
         table = np.empty((2, 3 * self.nx + 1), dtype=int)
-        table[:, np.concatenate(self._positions)] = i, np.repeat(np.arange(3), [len(k) for k in self._positions])
+        table[:, np.concatenate(self._positions)] = (
+            i,
+            np.repeat(np.arange(3), [len(k) for k in self._positions]),
+        )
         row, position = np.divmod(facets, 3 * self.nx + 1)
         i, kind = table[:, position]
         i, kind = np.where(row < self.ny, i, position), np.where(row < self.ny, kind, 0)
@@ -240,8 +263,15 @@ class Grid:
         along, up = np.arange(self.nx, dtype=np.int32), np.arange(self.ny, dtype=np.int32) * self.nx
         cells = self.nx * self.ny
         left, right = (0, cells) if self.diagonal == "falling" else (cells, 0)
-        found = {"bottom": along, "right": right + up + self.nx - 1, "top": cells + up[-1] + along, "left": left + up}
-        return self.triangles(np.unique(np.concatenate([found[side] for side in self.sides(label)])))
+        found = {
+            "bottom": along,
+            "right": right + up + self.nx - 1,
+            "top": cells + up[-1] + along,
+            "left": left + up,
+        }
+        return self.triangles(
+            np.unique(np.concatenate([found[side] for side in self.sides(label)]))
+        )
 
     @property
     def facets(self):
@@ -253,7 +283,10 @@ class Grid:
 
     def side_vertices(self, side):
         """Vertex numbers along a side, by increasing coordinate."""
-        along, up = np.arange(self.nx + 1, dtype=np.int32), np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1)
+        along, up = (
+            np.arange(self.nx + 1, dtype=np.int32),
+            np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1),
+        )
         return {"bottom": along, "top": up[-1] + along, "left": up, "right": up + self.nx}[side]
 
     def side_facets(self, side):
@@ -301,20 +334,27 @@ class Grid:
     in_one_part = True  # all triangles hang together by facets
 
     def edge_vectors(self, cells):
-        """The edges 01, 12 and 20 of a slice of the triangles as vectors, shape (3, 2, length), unit of length."""
+        """The edges 01, 12 and 20 of a slice of the triangles as vectors, shape (3, 2, length),
+        unit of length.
+        """
         corners = np.array(self.corners).transpose(1, 2, 0) * np.array(self.spacing)[:, None]
         kind = np.arange(*cells.indices(self.number_of_triangles)) // (self.nx * self.ny)
         return (np.roll(corners, -1, axis=0) - corners)[:, :, kind]
 
     def vertex_parents(self):
-        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both of them."""
+        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both
+        of them.
+        """
         i, j = np.arange(self.nx + 1), np.arange(self.ny + 1)[:, None]
         along = i % 2 * np.where(j % 2 == 1, -1 if self.diagonal == "falling" else 1, 1)
-        ends = [(j + up * (j % 2)) // 2 * (self.nx // 2 + 1) + (i + up * along) // 2 for up in (-1, 1)]
+        ends = [
+            (j + up * (j % 2)) // 2 * (self.nx // 2 + 1) + (i + up * along) // 2 for up in (-1, 1)
+        ]
         return np.stack([end.ravel() for end in ends]).astype(np.int32)
 
     def gradients(self, values):
-        """Gradients of a piecewise affine function given by its values at the corners; see `Triangulation`.
+        """Gradients of a piecewise affine function given by its values at the corners; see
+        `Triangulation`.
 
         The legs at corner 0 lie along the axes, so each derivative is one difference.
         """
@@ -365,8 +405,8 @@ class Grid:
         Returns
         -------
         ndarray, shape (4, 3, nt / 4)
-            Local vertex i of child k is the midpoint of the parent's vertices i and k; of child 3, that of the two
-            others than i.
+            Local vertex i of child k is the midpoint of the parent's vertices i and k; of child 3,
+            that of the two others than i.
         """
         return self.children(values)
 

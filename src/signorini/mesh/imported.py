@@ -1,4 +1,6 @@
-"""Meshes from files: whatever meshio reads, triangles in a plane, with the boundary named by the file's groups."""
+"""Meshes from files: whatever meshio reads, triangles in a plane, with the boundary named by the
+file's groups.
+"""
 
 import json
 import re
@@ -25,8 +27,8 @@ def read_mesh(path, groups):
     path : str or Path
         See `import_mesh`.
     groups : dict
-        Name or number of a group of boundary lines -> ``"dirichlet"``, ``"contact"`` or ``"neumann"``; see
-        `labels.label_boundary`.
+        Name or number of a group of boundary lines -> ``"dirichlet"``, ``"contact"`` or
+        ``"neumann"``; see `labels.label_boundary`.
 
     Returns
     -------
@@ -46,17 +48,18 @@ def import_mesh(path, limit=MAX_BYTES):
     Parameters
     ----------
     path : str or Path
-        A file that meshio reads (.msh, .vtu, .xdmf, ...) with triangles of three vertices in a plane z = const; other
-        cells than points, lines and triangles are refused.
+        A file that meshio reads (.msh, .vtu, .xdmf, ...) with triangles of three vertices in a
+        plane z = const; other cells than points, lines and triangles are refused.
     limit : int
         Largest file that is read, bytes.
 
     Returns
     -------
     NamedMesh
-        Its parts are the file's groups of lines, its regions the groups of triangles, overlapping or not: cell sets and
-        physical groups by name; these and other integer cell data by value, as ``"3"``, or ``"marker=3"`` where there
-        are several. Where a group's name is another one's number they are ``"name=3"`` and ``"number=3"``.
+        Its parts are the file's groups of lines, its regions the groups of triangles, overlapping
+        or not: cell sets and physical groups by name; these and other integer cell data by value,
+        as ``"3"``, or ``"marker=3"`` where there are several. Where a group's name is another one's
+        number they are ``"name=3"`` and ``"number=3"``.
 
     Raises
     ------
@@ -64,14 +67,16 @@ def import_mesh(path, limit=MAX_BYTES):
         If the file is missing, too large, damaged, hostile, or not a triangulation.
 
     Notes
-    -----
-    The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times the file's size, for 30 s
-    and 2 s per MB; what is compressed may hold 64 MiB and 50 times the file's size.
+    ----- The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times
+    the file's size, for 30 s and 2 s per MB; what is compressed may hold 64 MiB and 50 times the
+    file's size.
     """
     path = Path(path)
     size = _regular_size(path)
     if size > limit:
-        raise MeshError(f"{path.name}: {size} bytes, more than {limit}; coarsen the mesh, levels refine it")
+        raise MeshError(
+            f"{path.name}: {size} bytes, more than {limit}; coarsen the mesh, levels refine it"
+        )
     raw = run_apart(
         "signorini.mesh.parse:parse",
         str(path.absolute()),
@@ -83,7 +88,9 @@ def import_mesh(path, limit=MAX_BYTES):
     p, t, vertex_map = check_triangulation(points, raw["triangle"].T, path.name)
     lines = raw["line"].T
     if lines.size and (lines.min() < 0 or lines.max() >= vertex_map.size):
-        raise MeshError(f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}")
+        raise MeshError(
+            f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}"
+        )
     names = json.loads(str(raw["names"]))
     parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
     regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
@@ -110,17 +117,24 @@ def resolve_mesh_path(path, root, base=None):
     Raises
     ------
     MeshError
-        If the path is empty, has unusual characters, leads out of the tree, or is not an existing regular file.
+        If the path is empty, has unusual characters, leads out of the tree, or is not an existing
+        regular file.
     """
     if not isinstance(path, str) or not _PLAIN.fullmatch(path) or path != path.strip():
-        raise MeshError(f"domain.file: {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /")
+        raise MeshError(
+            f"domain.file: {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /"
+        )
     root = Path(root).resolve()
     try:
         resolved = (Path(base or root) / path).resolve()
     except (OSError, RuntimeError) as error:
-        raise MeshError(f"domain.file: {path!r} cannot be followed ({type(error).__name__}); remove the loop") from None
+        raise MeshError(
+            f"domain.file: {path!r} cannot be followed ({type(error).__name__}); remove the loop"
+        ) from None
     if not resolved.is_relative_to(root):
-        raise MeshError(f"domain.file: {path!r} leads out of the tree of {root.name}/; copy the file into it")
+        raise MeshError(
+            f"domain.file: {path!r} leads out of the tree of {root.name}/; copy the file into it"
+        )
     _regular_size(resolved)
     return resolved
 
@@ -131,7 +145,9 @@ def _regular_size(path):
         status = path.stat()
     except (OSError, ValueError) as error:
         cause = _cause(error, path)
-        raise MeshError(f"{path.name}: cannot read the mesh file ({cause}); name an existing file") from None
+        raise MeshError(
+            f"{path.name}: cannot read the mesh file ({cause}); name an existing file"
+        ) from None
     if not stat.S_ISREG(status.st_mode):
         raise MeshError(f"{path.name}: not a regular file; name a mesh file")
     return status.st_size
@@ -145,10 +161,14 @@ def _cause(error, path):
 def _plane(path, points):
     """Coordinates x and y, shape (2, nv), of points in a plane z = const."""
     if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise MeshError(f"{path.name}: points have shape {points.shape}; give two or three coordinates each")
+        raise MeshError(
+            f"{path.name}: points have shape {points.shape}; give two or three coordinates each"
+        )
     p, z = points.T[:2], points.T[2:]
     bent = (z != z[:, :1]).ravel()
     if bent.any() and not np.ptp(z) <= _PLANE * np.ptp(p):
         k = int(np.argmax(bent))
-        raise MeshError(f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; the mesh must be plane")
+        raise MeshError(
+            f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; the mesh must be plane"
+        )
     return p

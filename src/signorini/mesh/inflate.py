@@ -1,4 +1,6 @@
-"""Compressed mesh files: how much they may hold once decompressed, counted while it happens or before."""
+"""Compressed mesh files: how much they may hold once decompressed, counted while it happens or
+before.
+"""
 
 import contextlib
 import lzma
@@ -10,7 +12,9 @@ HDF5 = (".med", ".h5m", ".hmf", ".cgns", ".h5", ".hdf5", ".hdf", ".nc", ".e", ".
 
 
 def most(size):
-    """Bytes that `size` bytes of a file may decompress to; meshes of two million cells came to 13 times their size."""
+    """Bytes that `size` bytes of a file may decompress to; meshes of two million cells came to 13
+    times their size.
+    """
     return 2**26 + 50 * size
 
 

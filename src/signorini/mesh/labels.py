@@ -1,4 +1,6 @@
-"""What holds where on the boundary: labels given to whole parts of it, by name or by the sign of a formula."""
+"""What holds where on the boundary: labels given to whole parts of it, by name or by the sign of a
+formula.
+"""
 
 import difflib
 from dataclasses import dataclass, field, replace
@@ -77,13 +79,20 @@ class NamedMesh:
 
 
 def with_sides(mesh):
-    """Add the parts ``bottom``, ``right``, ``top`` and ``left``: facets on the sides of the bounding box.
+    """Add the parts ``bottom``, ``right``, ``top`` and ``left``: facets on the sides of the
+    bounding box.
 
-    Both ends of a facet must have the extreme coordinate, exactly: no tolerance, whatever the scale.
+    Both ends of a facet must have the extreme coordinate, exactly: no tolerance, whatever the
+    scale.
     """
     ends = mesh.facets[:, mesh.boundary]
     (x0, y0), (x1, y1) = mesh.p.min(axis=1), mesh.p.max(axis=1)
-    on = {"bottom": mesh.p[1] == y0, "right": mesh.p[0] == x1, "top": mesh.p[1] == y1, "left": mesh.p[0] == x0}
+    on = {
+        "bottom": mesh.p[1] == y0,
+        "right": mesh.p[0] == x1,
+        "top": mesh.p[1] == y1,
+        "left": mesh.p[0] == x0,
+    }
     sides = {side: ends[:, on[side][ends].all(axis=0)] for side in SIDES}
     return replace(mesh, parts=sides | mesh.parts)
 
@@ -95,8 +104,9 @@ def label_boundary(mesh, rules):
     ----------
     mesh : NamedMesh
     rules : dict, or iterable of pairs (selector, label)
-        A selector is the name of a part, or a function of (x, y) such as a `Formula`: it selects the boundary facets
-        at whose midpoints it is positive. A label is ``"dirichlet"``, ``"contact"`` or ``"neumann"``.
+        A selector is the name of a part, or a function of (x, y) such as a `Formula`: it selects
+        the boundary facets at whose midpoints it is positive. A label is ``"dirichlet"``,
+        ``"contact"`` or ``"neumann"``.
 
     Returns
     -------
@@ -106,8 +116,8 @@ def label_boundary(mesh, rules):
     Raises
     ------
     MeshError
-        An unknown part or label; a rule that selects nothing; a part with facets inside the domain; facets
-        with no label, or with two.
+        An unknown part or label; a rule that selects nothing; a part with facets inside the domain;
+        facets with no label, or with two.
 
     Examples
     --------
@@ -121,15 +131,23 @@ def label_boundary(mesh, rules):
     for selector, label in rules.items() if isinstance(rules, dict) else rules:
         if label not in LABELS:
             known = ", ".join(LABELS)
-            raise MeshError(f"boundary: unknown label {_quoted(str(label))} for {_named(selector)}; known: {known}")
-        selected = _by_formula(mesh, selector) if callable(selector) else _by_part(mesh, str(selector))
+            raise MeshError(
+                f"boundary: unknown label {_quoted(str(label))} for {_named(selector)}; known: {known}"
+            )
+        selected = (
+            _by_formula(mesh, selector) if callable(selector) else _by_part(mesh, str(selector))
+        )
         labels[label] = labels.get(label, False) | selected
         taken.append((selector, label, selected))
     times = np.sum([np.zeros(mesh.boundary.size, dtype=int), *labels.values()], axis=0)
     if np.any(times == 0):
         raise MeshError(_complaint(mesh, times == 0, "no label"))
     if np.any(times > 1):
-        raise MeshError(_complaint(mesh, times > 1, "more than one label", _overlap(taken, int(np.argmax(times > 1)))))
+        raise MeshError(
+            _complaint(
+                mesh, times > 1, "more than one label", _overlap(taken, int(np.argmax(times > 1)))
+            )
+        )
     return {label: mesh.boundary[selected] for label, selected in labels.items()}
 
 
@@ -146,13 +164,17 @@ def labelled_ends(mesh, rules):
 def _by_formula(mesh, formula):
     selected = np.asarray(formula(*mesh.midpoints)) > 0
     if not np.any(selected):
-        raise MeshError(f"boundary: {_named(formula)} is positive at no boundary facet's midpoint; correct or drop it")
+        raise MeshError(
+            f"boundary: {_named(formula)} is positive at no boundary facet's midpoint; correct or drop it"
+        )
     return np.broadcast_to(selected, mesh.boundary.shape)
 
 
 def _by_part(mesh, name):
     if name not in mesh.parts:
-        raise MeshError(f"boundary: {mesh.source} has no part {_quoted(name)}; {_missing(mesh, name)}")
+        raise MeshError(
+            f"boundary: {mesh.source} has no part {_quoted(name)}; {_missing(mesh, name)}"
+        )
     count = mesh.p.shape[1]
     keys, part = pair_keys(mesh.facets, count), mesh.parts[name]
     wanted = np.where(part.min(axis=0) >= 0, pair_keys(part, count), -1)
@@ -177,7 +199,11 @@ def _missing(mesh, name):
     near = [part for part in (f"name={name}", f"number={name}") if part in mesh.parts]
     near = near or difflib.get_close_matches(name[:200], mesh.parts, n=1)
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    formula = f"; or give {name} a formula, and every other label one" if name in LABELS and not near else ""
+    formula = (
+        f"; or give {name} a formula, and every other label one"
+        if name in LABELS and not near
+        else ""
+    )
     return f"its parts: {listed(mesh.parts) or 'none'}{hint}{formula}"
 
 

@@ -1,4 +1,6 @@
-"""Closed outlines: does a set of directed segments bound a region of the plane, once and without crossings?"""
+"""Closed outlines: does a set of directed segments bound a region of the plane, once and without
+crossings?
+"""
 
 import numpy as np
 
@@ -23,23 +25,24 @@ def outline_defect(q, edges, resolution=0.0):
     q : ndarray, shape (2, nv)
         Points, scaled to the unit square (dimensionless), no two equal.
     edges : ndarray of int, shape (2, nb)
-        Start and end of each segment, the region on its left; every point ends as many as it starts.
+        Start and end of each segment, the region on its left; every point ends as many as it
+        starts.
     resolution : float
-        Distance up to which a point counts as lying on a segment, besides `ON_SEGMENT` times its length.
+        Distance up to which a point counts as lying on a segment, besides `ON_SEGMENT` times its
+        length.
 
     Returns
     -------
     tuple or None
-        ``("touch", point, edge)``: a point inside a segment; ``("cross", edge, edge)``; ``("overlap", edge)``: the
-        left of this segment is not covered exactly once; ``("intricate", number)``: more than `MAX_LOOPS` loops, or
-        `MAX_PAIRS` pairs to test. None if all is well.
+        ``("touch", point, edge)``: a point inside a segment; ``("cross", edge, edge)``;
+        ``("overlap", edge)``: the left of this segment is not covered exactly once; ``("intricate",
+        number)``: more than `MAX_LOOPS` loops, or `MAX_PAIRS` pairs to test. None if all is well.
 
     Notes
-    -----
-    Where no two segments meet except at common ends, the number of times the left of a segment is covered changes
-    only at points where more than two segments meet; there the directions must alternate. It remains to look at one
-    segment per closed path: its left must have winding number 1. O(n log n) but for the pairs of segments
-    whose shadows on a line overlap.
+    ----- Where no two segments meet except at common ends, the number of times the left of a
+    segment is covered changes only at points where more than two segments meet; there the
+    directions must alternate. It remains to look at one segment per closed path: its left must have
+    winding number 1. O(n log n) but for the pairs of segments whose shadows on a line overlap.
     """
     samples = _samples(q, edges)
     if samples.size > MAX_LOOPS:
@@ -67,13 +70,17 @@ def _meeting(q, edges, resolution):
 
 
 def _shadows(q, edges):
-    """Segments in the order of their shadows on a line, and how many of the following ones each overlaps."""
+    """Segments in the order of their shadows on a line, and how many of the following ones each
+    overlaps.
+    """
     best = None
     for angle in _ANGLES:
         shadow = (np.cos(angle) * q[0] + np.sin(angle) * q[1])[edges]
         low, high = shadow.min(axis=0), shadow.max(axis=0) + ON_SEGMENT
         order = np.argsort(low, kind="stable")
-        partners = np.searchsorted(low[order], high[order], side="right") - np.arange(order.size) - 1
+        partners = (
+            np.searchsorted(low[order], high[order], side="right") - np.arange(order.size) - 1
+        )
         if best is None or partners.sum() < best[1].sum():
             best = order, np.maximum(partners, 0)
     return best
@@ -82,11 +89,18 @@ def _shadows(q, edges):
 def _first_meeting(q, edges, i, j, resolution):
     """Test the pairs of segments (i, j)."""
     (a, b), (c, d) = edges[:, i], edges[:, j]
-    for point, (start, end), owner in ((c, (a, b), i), (d, (a, b), i), (a, (c, d), j), (b, (c, d), j)):
+    for point, (start, end), owner in (
+        (c, (a, b), i),
+        (d, (a, b), i),
+        (a, (c, d), j),
+        (b, (c, d), j),
+    ):
         along, away = q[:, end] - q[:, start], q[:, point] - q[:, start]
         square = (along**2).sum(axis=0)
         position = (along * away).sum(axis=0)
-        near = np.abs(cross(along, away)) <= np.maximum(ON_SEGMENT * square, resolution * np.sqrt(square))
+        near = np.abs(cross(along, away)) <= np.maximum(
+            ON_SEGMENT * square, resolution * np.sqrt(square)
+        )
         on = near & (position > 0) & (position < square) & (point != start) & (point != end)
         if on.any():
             k = np.argmax(on)

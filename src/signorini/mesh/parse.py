@@ -33,8 +33,9 @@ def parse(path):
     Returns
     -------
     dict of ndarray
-        ``points`` (nv, 2 or 3), ``line`` (k, 2), ``triangle`` (nt, 3); ``names``, a JSON text with the names of the
-        groups of lines and of triangles, and a ``note`` on what became of them, or ""; ``line_0``, ``triangle_0``,
+        ``points`` (nv, 2 or 3), ``line`` (k, 2), ``triangle`` (nt, 3); ``names``, a JSON text with
+        the names of the groups of lines and of triangles, and a ``note`` on what became of them, or
+        ""; ``line_0``, ``triangle_0``,
         ...: the cells in each group.
 
     Raises
@@ -48,17 +49,27 @@ def parse(path):
         _refuse_hostile(path, content)
         return _arrays(*(_own if _is_msh4(path, content) else _reduced)(path, content))
     except ModuleNotFoundError as error:
-        raise MeshError(f"{path.name}: reading it needs the Python package {error.name}; install it") from None
+        raise MeshError(
+            f"{path.name}: reading it needs the Python package {error.name}; install it"
+        ) from None
     except (MemoryError, RecursionError):
-        raise MeshError(f"{path.name}: asks for more memory than its size explains; write the file anew") from None
+        raise MeshError(
+            f"{path.name}: asks for more memory than its size explains; write the file anew"
+        ) from None
     except MeshError as error:
         raise MeshError(f"{path.name}: {error}") from None
     except (Exception, SystemExit) as error:  # meshio raises anything, down to SystemExit
-        raise MeshError(f"{path.name}: meshio cannot read it{_reason(error)}; {_remedy(error)}") from None
+        raise MeshError(
+            f"{path.name}: meshio cannot read it{_reason(error)}; {_remedy(error)}"
+        ) from None
 
 
 def _reason(error):
-    return "" if isinstance(error, SystemExit) else f" ({type(error).__name__}: {one_line(error)[:120]})"
+    return (
+        ""
+        if isinstance(error, SystemExit)
+        else f" ({type(error).__name__}: {one_line(error)[:120]})"
+    )
 
 
 def _remedy(error):
@@ -68,17 +79,23 @@ def _remedy(error):
 
 
 def _refuse_hostile(path, content):
-    """Refuse declarations of a document type or of entities (bombs, reads of other files), and other includes."""
+    """Refuse declarations of a document type or of entities (bombs, reads of other files), and
+    other includes.
+    """
     if path.suffix.lower() in _XML:
         if _DECLARATION.search(content) or _declares_doctype(content):
-            raise MeshError("declares a DOCTYPE or ENTITY, which no mesh needs; remove the declaration")
+            raise MeshError(
+                "declares a DOCTYPE or ENTITY, which no mesh needs; remove the declaration"
+            )
         _referenced(path, content)
     elif path.suffix.lower() == ".inp" and _INCLUDE.search(content):
         raise MeshError("includes another file; put the whole mesh into one")
 
 
 def _declares_doctype(content):
-    """Whether a document type is declared, in any encoding: it stands before the first element or nowhere."""
+    """Whether a document type is declared, in any encoding: it stands before the first element or
+    nowhere.
+    """
     found = []
 
     def stop(is_doctype):
@@ -95,7 +112,9 @@ def _declares_doctype(content):
 
 
 def _referenced(path, content):
-    """The HDF5 files that an .xdmf may keep its arrays in: beside it, under plain names, and nowhere else."""
+    """The HDF5 files that an .xdmf may keep its arrays in: beside it, under plain names, and
+    nowhere else.
+    """
     if path.suffix.lower() not in (".xdmf", ".xmf"):
         return []
     try:
@@ -114,10 +133,15 @@ def _referenced(path, content):
 
 
 def _is_msh4(path, content):
-    """Whether it is Gmsh's format 4.1, which meshio does not read whole. Version 4.0 was of one year."""
+    """Whether it is Gmsh's format 4.1, which meshio does not read whole.
+
+    Version 4.0 was of one year.
+    """
     number = version(content[:100_000]) if path.suffix.lower() == ".msh" else ""
     if number.startswith("4") and number not in ("4", "4.1"):
-        raise MeshError(f"MSH {number} is not supported; save it as 4.1 (gmsh {path.name} -save -format msh41)")
+        raise MeshError(
+            f"MSH {number} is not supported; save it as 4.1 (gmsh {path.name} -save -format msh41)"
+        )
     return number in ("4", "4.1")
 
 
@@ -136,12 +160,16 @@ def _read(path, content):
     import meshio
 
     suffix = path.suffix.lower()
-    known = {end for end, kinds in meshio.extension_to_filetypes.items() if kinds[0] not in _NEVER_PLANE}
+    known = {
+        end for end, kinds in meshio.extension_to_filetypes.items() if kinds[0] not in _NEVER_PLANE
+    }
     kinds = meshio.extension_to_filetypes[suffix] if suffix in known else []
     if suffix == ".msh":
         kinds = ["gmsh" if content[:512].lstrip().startswith(b"$") else "ansys"]
     if not kinds:
-        raise MeshError(f"unknown kind of mesh file {suffix[:40]!r}; known: {' '.join(sorted(known))}")
+        raise MeshError(
+            f"unknown kind of mesh file {suffix[:40]!r}; known: {' '.join(sorted(known))}"
+        )
     archives = [path] if suffix in HDF5 else _referenced(path, content)
     limit = most(len(content) + sum(file.stat().st_size for file in archives if file != path))
     for file in archives:
@@ -161,7 +189,9 @@ def _reduced(path, content):
         parts = [np.asarray(mesh.cells[k].data).reshape(-1, width).astype(np.int64) for k in blocks]
         data, sets = _integer_data(mesh, blocks), _cell_sets(mesh, blocks)
         entities = data.pop("gmsh:geometrical", 0)
-        cells[kind], same = _merged(np.concatenate([np.zeros((0, width), dtype=np.int64), *parts]), entities, data)
+        cells[kind], same = _merged(
+            np.concatenate([np.zeros((0, width), dtype=np.int64), *parts]), entities, data
+        )
         groups[kind] = _groups(data, sets, titles, _families(mesh), width - 1, same)
     return np.asarray(mesh.points, dtype=np.float64), cells, groups, _note(mesh)
 
@@ -187,7 +217,9 @@ def _refuse_other_cells(mesh):
 
 
 class _Groups:
-    """Groups of cells, by name and by number: a name that is also another group's number is kept apart from it."""
+    """Groups of cells, by name and by number: a name that is also another group's number is kept
+    apart from it.
+    """
 
     def __init__(self):
         self._members = {}
@@ -205,9 +237,15 @@ class _Groups:
 
     def resolved(self):
         """Text to write in a scene -> its cells, increasing."""
-        found = {key: np.unique(np.concatenate(parts)).astype(np.int64) for key, parts in self._members.items()}
+        found = {
+            key: np.unique(np.concatenate(parts)).astype(np.int64)
+            for key, parts in self._members.items()
+        }
         clash = {text for text, origin in found if origin == "name" and not _agree(found, text)}
-        return {f"{origin}={text}" if text in clash else text: cells for (text, origin), cells in found.items()}
+        return {
+            f"{origin}={text}" if text in clash else text: cells
+            for (text, origin), cells in found.items()
+        }
 
 
 def _agree(found, text):
@@ -237,8 +275,8 @@ def _groups(data, sets, titles, families, dimension, same):
 def _merged(cells, entities, data):
     """The cells without repetition, and the new number of each.
 
-    MSH 2.2 writes a cell of several groups once for each of them. The same cell twice in one group is an error, which
-    is left for the check of the mesh to find.
+    MSH 2.2 writes a cell of several groups once for each of them. The same cell twice in one group
+    is an error, which is left for the check of the mesh to find.
     """
     numbers = np.arange(len(cells))
     if len(cells) == 0 or cells.shape[1] != 3 or "gmsh:physical" not in data:
@@ -256,7 +294,11 @@ def _merged(cells, entities, data):
 def _titles(mesh):
     """Names of physical groups that another format than Gmsh's has kept."""
     found = [(name, np.ravel(tag)) for name, tag in mesh.field_data.items() if np.size(tag) == 2]
-    return [(int(tag[1]), int(tag[0]), name) for name, tag in found if np.all(np.isfinite(tag.astype(float)))]
+    return [
+        (int(tag[1]), int(tag[0]), name)
+        for name, tag in found
+        if np.all(np.isfinite(tag.astype(float)))
+    ]
 
 
 def _families(mesh):
@@ -278,7 +320,11 @@ def _cell_sets(mesh, blocks):
     found = {}
     for name, sets in mesh.cell_sets.items():
         if not name.startswith("gmsh:"):
-            chosen = [(start, sets[k]) for start, k in zip(offsets[:-1], blocks, strict=True) if sets[k] is not None]
+            chosen = [
+                (start, sets[k])
+                for start, k in zip(offsets[:-1], blocks, strict=True)
+                if sets[k] is not None
+            ]
             parts = [start + np.asarray(members, dtype=np.int64) for start, members in chosen]
             found[name] = np.concatenate([np.zeros(0, dtype=np.int64), *parts])
     return found

@@ -1,7 +1,8 @@
-"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering decides.
+"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering
+decides.
 
-A piece is walked from its end with the smaller (x, y); one that closes on itself counterclockwise from its smallest
-(x, y). Pieces follow one another by the (x, y) where they start.
+A piece is walked from its end with the smaller (x, y); one that closes on itself counterclockwise
+from its smallest (x, y). Pieces follow one another by the (x, y) where they start.
 """
 
 from collections import defaultdict
@@ -68,7 +69,8 @@ def boundary_paths(mesh, label):
     Returns
     -------
     list of Path
-        In the order and direction that the module's docstring says, whatever the numbering of the mesh.
+        In the order and direction that the module's docstring says, whatever the numbering of the
+        mesh.
     """
     facets, p = mesh.boundary_facets(label), mesh.p
     around = defaultdict(list)
@@ -86,14 +88,20 @@ def boundary_paths(mesh, label):
 
 
 def _walk(p, around, joints, start, step, used):
-    """Follow facets that are not `used` from `start` to a joint, or round to where no facet is left."""
+    """Follow facets that are not `used` from `start` to a joint, or round to where no facet is
+    left.
+    """
     vertices, facets = [start], []
     while step:
         facet, vertex = step
         used.add(facet)
         facets.append(facet)
         vertices.append(vertex)
-        step = None if vertex in joints else next((s for s in around[vertex] if s[0] not in used), None)
+        step = (
+            None
+            if vertex in joints
+            else next((s for s in around[vertex] if s[0] not in used), None)
+        )
     path = Path(np.array(vertices), np.array(facets), p[:, vertices])
     if path.closed and _signed_area(path.points) < 0.0:
         path = Path(path.vertices[::-1], path.facets[::-1], path.points[:, ::-1])

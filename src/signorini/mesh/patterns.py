@@ -1,4 +1,6 @@
-"""Rectangles cut into triangles in other patterns than `Grid`, and meshes shaken or graded for studies."""
+"""Rectangles cut into triangles in other patterns than `Grid`, and meshes shaken or graded for
+studies.
+"""
 
 from dataclasses import replace
 from functools import partial
@@ -27,12 +29,14 @@ def alternating(nx, ny, origin, size, first="falling"):
     Returns
     -------
     NamedMesh
-        With the parts ``bottom``, ``right``, ``top``, ``left``; vertices numbered as those of `Grid`.
+        With the parts ``bottom``, ``right``, ``top``, ``left``; vertices numbered as those of
+        `Grid`.
 
     Raises
     ------
     MeshError
-        If a count is below 1, a size not positive, or the cells are below the resolution of the coordinates.
+        If a count is below 1, a size not positive, or the cells are below the resolution of the
+        coordinates.
     """
     if first not in CORNERS:
         raise MeshError(f"pattern: unknown diagonal {first!r}; known: {', '.join(CORNERS)}")
@@ -46,7 +50,8 @@ def alternating(nx, ny, origin, size, first="falling"):
 def criss_cross(nx, ny, origin, size):
     """Cut every cell of a rectangle by both diagonals into four triangles.
 
-    Parameters, result and errors as for `alternating`; the centres of the cells are numbered after the corners.
+    Parameters, result and errors as for `alternating`; the centres of the cells are numbered after
+    the corners.
     """
     p, numbers = _lattice(nx, ny, origin, size)
     x, y = p.reshape(2, ny + 1, nx + 1)
@@ -55,7 +60,9 @@ def criss_cross(nx, ny, origin, size):
     ring = [numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]]
     t = [np.concatenate([corner.ravel() for corner in ring[k:] + ring[:k]]) for k in (0, 1)]
     t = np.stack([*t, np.tile(centre.ravel(), 4)])
-    return NamedMesh(np.concatenate([p, [x.ravel(), y.ravel()]], axis=1), t, _sides(numbers), source="rectangle")
+    return NamedMesh(
+        np.concatenate([p, [x.ravel(), y.ravel()]], axis=1), t, _sides(numbers), source="rectangle"
+    )
 
 
 # By `domain.diagonal` of a scene.
@@ -73,15 +80,16 @@ def perturbed(mesh, amount, seed):
     ----------
     mesh : NamedMesh
     amount : float
-        Between 0 (no move) and 1, exclusive: the largest move, in units of half the least height of the triangles
-        around a vertex. (A triangle has no area only after moves of half its least height.)
+        Between 0 (no move) and 1, exclusive: the largest move, in units of half the least height of
+        the triangles around a vertex. (A triangle has no area only after moves of half its least
+        height.)
     seed : int
 
     Returns
     -------
     NamedMesh
-        Boundary vertices move along sides that are parallel to an axis; those elsewhere, and the ends of the
-        boundary's parts, stay.
+        Boundary vertices move along sides that are parallel to an axis; those elsewhere, and the
+        ends of the boundary's parts, stay.
 
     Raises
     ------
@@ -108,7 +116,8 @@ def perturbed(mesh, amount, seed):
 
 
 def graded(mesh, towards, exponent):
-    """Draw the vertices of a rectangle towards a side or a corner: distances s in [0, 1] become s**exponent.
+    """Draw the vertices of a rectangle towards a side or a corner: distances s in [0, 1] become
+    s**exponent.
 
     Parameters
     ----------
@@ -127,35 +136,51 @@ def graded(mesh, towards, exponent):
     Raises
     ------
     MeshError
-        Not a rectangle; an unknown side, or opposite ones; an exponent below 1, or one that leaves triangles without
-        area.
+        Not a rectangle; an unknown side, or opposite ones; an exponent below 1, or one that leaves
+        triangles without area.
     """
     towards = (towards,) if isinstance(towards, str) else tuple(towards)
     axes = [SIDES.index(side) % 2 for side in towards if side in SIDES]
     if len(axes) != len(towards) or len(set(axes)) != len(axes) or not axes:
-        raise MeshError(f"grading: {', '.join(map(str, towards))!r} is no side or corner; sides: {', '.join(SIDES)}")
+        raise MeshError(
+            f"grading: {', '.join(map(str, towards))!r} is no side or corner; sides: {', '.join(SIDES)}"
+        )
     if not 1 <= exponent < np.inf:
-        raise MeshError(f"grading: exponent {exponent} is below 1 or not finite; use for instance 2")
+        raise MeshError(
+            f"grading: exponent {exponent} is below 1 or not finite; use for instance 2"
+        )
     lower, upper = mesh.p.min(axis=1), mesh.p.max(axis=1)
     if not _is_rectangle(mesh, lower, upper):
-        raise MeshError(f"grading: {mesh.source} is not a rectangle with sides {', '.join(SIDES)}; drop the grading")
+        raise MeshError(
+            f"grading: {mesh.source} is not a rectangle with sides {', '.join(SIDES)}; drop the grading"
+        )
     p = mesh.p.copy()
     for side in towards:
         axis = 1 - SIDES.index(side) % 2
-        start, end = (lower[axis], upper[axis]) if side in ("bottom", "left") else (upper[axis], lower[axis])
+        start, end = (
+            (lower[axis], upper[axis]) if side in ("bottom", "left") else (upper[axis], lower[axis])
+        )
         inside = (p[axis] != start) & (p[axis] != end)
-        p[axis, inside] = start + (end - start) * ((p[axis, inside] - start) / (end - start)) ** exponent
+        p[axis, inside] = (
+            start + (end - start) * ((p[axis, inside] - start) / (end - start)) ** exponent
+        )
     if not (_doubled_areas(p, mesh.t) > 0).all():
-        raise MeshError(f"grading: exponent {exponent} leaves triangles without area; use a smaller one")
+        raise MeshError(
+            f"grading: exponent {exponent} leaves triangles without area; use a smaller one"
+        )
     return NamedMesh(p, mesh.t, mesh.parts, mesh.regions, mesh.source)
 
 
 def _lattice(nx, ny, origin, size):
-    """Vertices of nx by ny cells, shape (2, nv), and their numbers, shape (ny + 1, nx + 1), as in `Grid`."""
+    """Vertices of nx by ny cells, shape (2, nv), and their numbers, shape (ny + 1, nx + 1), as in
+    `Grid`.
+    """
     if nx < 1 or ny < 1:
         raise MeshError(f"pattern: {nx} by {ny} cells; use at least one each way")
     if not (np.isfinite([origin, size]).all() and min(size) > 0):
-        raise MeshError(f"pattern: origin {tuple(origin)}, size {tuple(size)} must be finite, and the size positive")
+        raise MeshError(
+            f"pattern: origin {tuple(origin)}, size {tuple(size)} must be finite, and the size positive"
+        )
     lower, upper = np.array(origin, dtype=float), np.add(origin, size)
     check_resolution(lower, upper, np.divide(size, (nx, ny)), "rectangle")
     x, y = (origin[k] + size[k] * (np.arange(n + 1) / n) for k, n in enumerate((nx, ny)))
@@ -171,7 +196,12 @@ def _cells(numbers, cuts):
 
 def _sides(numbers):
     """The facets on each side of the rectangle, as pairs of vertices."""
-    lines = {"bottom": numbers[0], "right": numbers[:, -1], "top": numbers[-1], "left": numbers[:, 0]}
+    lines = {
+        "bottom": numbers[0],
+        "right": numbers[:, -1],
+        "top": numbers[-1],
+        "left": numbers[:, 0],
+    }
     return {side: np.stack([lines[side][:-1], lines[side][1:]]) for side in SIDES}
 
 

@@ -24,40 +24,46 @@ def triangulate(vertices, holes=(), size=1.0, names=None):
     Parameters
     ----------
     vertices : array_like, shape (n, 2)
-        Corners of the outline, in order, either way round, in any unit of length; every corner becomes a vertex.
+        Corners of the outline, in order, either way round, in any unit of length; every corner
+        becomes a vertex.
     holes : sequence of array_like, shape (m, 2)
         Outlines of holes, likewise; holes touch neither the outline nor each other.
     size : float
-        Mesh width h, same unit: edges are about as long, and shorter only near short sides or narrow passages.
+        Mesh width h, same unit: edges are about as long, and shorter only near short sides or
+        narrow passages.
     names : sequence of str, optional
-        Names of the sides of the outline besides their numbers; sides may share a name. Side k runs from corner k to
-        corner k + 1.
+        Names of the sides of the outline besides their numbers; sides may share a name. Side k runs
+        from corner k to corner k + 1.
 
     Returns
     -------
     NamedMesh
-        Its parts are ``side-0``, ``side-1``, ..., ``hole-0``, ..., ``hole-0-side-0``, ... and `names`.
+        Its parts are ``side-0``, ``side-1``, ..., ``hole-0``, ..., ``hole-0-side-0``, ... and
+        `names`.
 
     Raises
     ------
     MeshError
-        Fewer than three corners; a corner that is not finite or repeated; sides that touch or cross; no area; a hole
-        that is not inside; a size that is not positive or asks for more than `MAX_TRIANGLES`; passages too narrow for
-        the mesher; the mesher missing.
+        Fewer than three corners; a corner that is not finite or repeated; sides that touch or
+        cross; no area; a hole that is not inside; a size that is not positive or asks for more than
+        `MAX_TRIANGLES`; passages too narrow for the mesher; the mesher missing.
 
     Notes
-    -----
-    The polygon is moved to the origin, scaled to the unit square and rounded to 24 binary places before it is meshed:
-    the same triangles result whatever its place and unit of length. Then corners and sides are put back exactly.
-    The same input gives the same mesh, bit for bit, with the same version of Netgen [1]_. Edges may be 1.8 times
-    `size` long. The passage between two sides must be wider than about 1e-4 of the polygon.
+    ----- The polygon is moved to the origin, scaled to the unit square and rounded to 24 binary
+    places before it is meshed: the same triangles result whatever its place and unit of length.
+    Then corners and sides are put back exactly. The same input gives the same mesh, bit for bit,
+    with the same version of Netgen [1]_. Edges may be 1.8 times `size` long. The passage between
+    two sides must be wider than about 1e-4 of the polygon.
 
     References
-    ----------
-    .. [1] J. Schoeberl, NETGEN: An advancing front 2D/3D-mesh generator based on abstract rules, Computing and
+    ---------- .. [1] J. Schoeberl, NETGEN: An advancing front 2D/3D-mesh generator based on
+    abstract rules, Computing and
        Visualization in Science 1 (1997), 41-52.
     """
-    loops = [_corners(loop, f"hole {k - 1}" if k else "polygon") for k, loop in enumerate([vertices, *holes])]
+    loops = [
+        _corners(loop, f"hole {k - 1}" if k else "polygon")
+        for k, loop in enumerate([vertices, *holes])
+    ]
     p = np.concatenate(loops, axis=1)
     sides = _check_outline(p, loops)
     origin = p.min(axis=1, keepdims=True)
@@ -65,7 +71,9 @@ def triangulate(vertices, holes=(), size=1.0, names=None):
     area = _area(p - origin, sides)
     _check_size(size, area, p, sides)
     if find_spec("netgen") is None:
-        raise MeshError("polygon: meshing it needs the package netgen-mesher; install signorini[mesh]")
+        raise MeshError(
+            "polygon: meshing it needs the package netgen-mesher; install signorini[mesh]"
+        )
     try:
         raw = run_apart(
             "signorini.mesh.polygon:netgen",
@@ -77,8 +85,12 @@ def triangulate(vertices, holes=(), size=1.0, names=None):
             what="polygon",
         )
     except MeshError as error:
-        raise MeshError(f"{error}; the shortest side is {_shortest(p, sides):.3g}, the mesh size {size:.3g}") from None
-    return _named_mesh(p, sides, origin + unit * raw["points"].T, raw, area, _part_names(loops, names))
+        raise MeshError(
+            f"{error}; the shortest side is {_shortest(p, sides):.3g}, the mesh size {size:.3g}"
+        ) from None
+    return _named_mesh(
+        p, sides, origin + unit * raw["points"].T, raw, area, _part_names(loops, names)
+    )
 
 
 def netgen(points, sides, size):
@@ -94,8 +106,8 @@ def netgen(points, sides, size):
     Returns
     -------
     dict of ndarray
-        ``points`` (nv, 2) and the numbers of the ``corners`` among them; ``triangles`` (3, nt); ``lines`` (2, k) and
-        the ``side`` of each.
+        ``points`` (nv, 2) and the numbers of the ``corners`` among them; ``triangles`` (3, nt);
+        ``lines`` (2, k) and the ``side`` of each.
     """
     from netgen.geom2d import SplineGeometry
     from netgen.meshing import NgException
@@ -129,13 +141,17 @@ def _corners(loop, name):
     try:
         corners = np.array([[float(x), float(y)] for x, y in loop]).reshape(-1, 2).T
     except (TypeError, ValueError, OverflowError):
-        raise MeshError(f"{name}: corners must be pairs of numbers, for instance [[0, 0], [1, 0], [0, 1]]") from None
+        raise MeshError(
+            f"{name}: corners must be pairs of numbers, for instance [[0, 0], [1, 0], [0, 1]]"
+        ) from None
     if not 3 <= corners.shape[1] <= MAX_CORNERS:
         raise MeshError(f"{name}: has {corners.shape[1]} corners; give 3 to {MAX_CORNERS}")
     broken = ~np.isfinite(corners).all(axis=0)
     if broken.any():
         k = int(np.argmax(broken))
-        raise MeshError(f"{name}: corner {k} is at ({corners[0, k]}, {corners[1, k]}); coordinates must be finite")
+        raise MeshError(
+            f"{name}: corner {k} is at ({corners[0, k]}, {corners[1, k]}); coordinates must be finite"
+        )
     return corners
 
 
@@ -170,7 +186,9 @@ def _check_outline(p, loops):
     pair = coincident(p, q, size[:, None])
     if pair:
         a, b = pair
-        raise MeshError(f"polygon: corners {_name(a, loops)} and {_name(b, loops)} are the same point; leave one out")
+        raise MeshError(
+            f"polygon: corners {_name(a, loops)} and {_name(b, loops)} are the same point; leave one out"
+        )
     found, first = [], 0
     for number, loop in enumerate(loops):
         corners = first + np.arange(loop.shape[1])
@@ -204,13 +222,17 @@ def _check_size(size, area, p, sides):
     lengths = np.hypot(*(p[:, sides[1]] - p[:, sides[0]]))
     expected = area / size / size * 4 / math.sqrt(3) + lengths.sum() / size
     if not expected <= MAX_TRIANGLES:
-        raise MeshError(f"polygon: size {size:.3g} asks for {expected:.2g} triangles; {MAX_TRIANGLES} is the limit")
+        raise MeshError(
+            f"polygon: size {size:.3g} asks for {expected:.2g} triangles; {MAX_TRIANGLES} is the limit"
+        )
 
 
 def _part_names(loops, names):
     """The names of the parts that each side belongs to, a list of lists."""
     if names is not None and len(names) != loops[0].shape[1]:
-        raise MeshError(f"polygon: {len(names)} names for {loops[0].shape[1]} sides; give each side a name, or none")
+        raise MeshError(
+            f"polygon: {len(names)} names for {loops[0].shape[1]} sides; give each side a name, or none"
+        )
     found = [[f"side-{k}", *([str(names[k])] if names else [])] for k in range(loops[0].shape[1])]
     for number, loop in enumerate(loops[1:]):
         found += [[f"hole-{number}", f"hole-{number}-side-{k}"] for k in range(loop.shape[1])]
@@ -230,9 +252,13 @@ def _named_mesh(corners, sides, p, raw, area, names):
     lines = vertex_map[lines]
     found = _area(p - p[:, :1], np.concatenate([t[[0, 1]], t[[1, 2]], t[[2, 0]]], axis=1))
     if lines.min() < 0 or abs(found - area) > _RELATIVE_AREA * area:
-        raise MeshError("polygon: Netgen's mesh does not fill it; widen narrow passages or use a smaller size")
+        raise MeshError(
+            "polygon: Netgen's mesh does not fill it; widen narrow passages or use a smaller size"
+        )
     parts = {}
     for k, own in enumerate(names):
         for name in own:
             parts.setdefault(name, []).append(lines[:, side == k])
-    return NamedMesh(p, t, {name: np.concatenate(ends, axis=1) for name, ends in parts.items()}, source="polygon")
+    return NamedMesh(
+        p, t, {name: np.concatenate(ends, axis=1) for name, ends in parts.items()}, source="polygon"
+    )

@@ -1,4 +1,6 @@
-"""Foreign code in a process of its own: bounded memory and time, no output, and a crash that is only an error."""
+"""Foreign code in a process of its own: bounded memory and time, no output, and a crash that is
+only an error.
+"""
 
 import contextlib
 import importlib
@@ -43,7 +45,9 @@ def run_apart(function, *arguments, memory, seconds, what):
         What the function raised, whatever it was, or that it ran out of memory or time, or crashed.
     """
     root = str(Path(__file__).parents[2])
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH")]))}
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH")]))
+    }
     request = json.dumps([function, memory, arguments]).encode()
     try:
         done = subprocess.run(
@@ -56,12 +60,16 @@ def run_apart(function, *arguments, memory, seconds, what):
             check=False,
         )
     except subprocess.TimeoutExpired:
-        raise MeshError(f"{what}: not done after {seconds:.0f} s; use a smaller or simpler mesh") from None
+        raise MeshError(
+            f"{what}: not done after {seconds:.0f} s; use a smaller or simpler mesh"
+        ) from None
     except (OSError, MemoryError) as error:
         raise MeshError(f"{what}: cannot start a process ({error}); free memory") from None
     status, answer = done.stdout[:1], done.stdout[1:]
     if done.returncode or status not in b"+-" or not status:
-        raise MeshError(f"{what}: crashed or ran out of memory ({memory / 2**20:.0f} MiB); use a smaller or sound mesh")
+        raise MeshError(
+            f"{what}: crashed or ran out of memory ({memory / 2**20:.0f} MiB); use a smaller or sound mesh"
+        )
     if status == b"-":
         raise MeshError(answer.decode())
     with np.load(io.BytesIO(answer), allow_pickle=False) as archive:
@@ -69,7 +77,9 @@ def run_apart(function, *arguments, memory, seconds, what):
 
 
 def serve():
-    """The other end of `run_apart`: read the request from stdin, answer on stdout, let nothing else through."""
+    """The other end of `run_apart`: read the request from stdin, answer on stdout, let nothing else
+    through.
+    """
     channel = os.dup(1)
     null = os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)

@@ -1,7 +1,8 @@
-"""A triangulation of any polygonal domain, all of whose boundary is labelled, and its red refinements.
+"""A triangulation of any polygonal domain, all of whose boundary is labelled, and its red
+refinements.
 
-Vertices and facets are numbered as scikit-fem numbers them. Those of a refined mesh follow from its parent by
-arithmetic; only a mesh without parent searches for them.
+Vertices and facets are numbered as scikit-fem numbers them. Those of a refined mesh follow from its
+parent by arithmetic; only a mesh without parent searches for them.
 """
 
 from dataclasses import dataclass, field
@@ -18,14 +19,16 @@ from signorini.mesh.grid import Triangles
 
 @dataclass(frozen=True, eq=False)
 class Triangulation:
-    """Triangles whose boundary facets each carry one of the labels ``"dirichlet"``, ``"contact"``, ``"neumann"``.
+    """Triangles whose boundary facets each carry one of the labels ``"dirichlet"``, ``"contact"``,
+    ``"neumann"``.
 
     Parameters
     ----------
     p : ndarray, shape (2, nv)
         Vertices, unit of length.
     t : ndarray of int, shape (3, nt)
-        Vertices of each triangle, in any order. Numbers are kept in 32 bits, whatever the type they come in.
+        Vertices of each triangle, in any order. Numbers are kept in 32 bits, whatever the type they
+        come in.
     ends : dict of str to ndarray of int, shape (2, k)
         End vertices of the facets that carry each label.
     subdomains : dict of str to ndarray of int, optional
@@ -36,8 +39,8 @@ class Triangulation:
     Raises
     ------
     MeshError
-        If, in a mesh without parent, a boundary facet has no label, or two; if it has not four times its parent's
-        triangles.
+        If, in a mesh without parent, a boundary facet has no label, or two; if it has not four
+        times its parent's triangles.
     """
 
     p: np.ndarray
@@ -49,16 +52,22 @@ class Triangulation:
     def __post_init__(self):
         object.__setattr__(self, "p", np.ascontiguousarray(self.p, dtype=float))
         object.__setattr__(self, "t", _numbers(self.t))
-        object.__setattr__(self, "ends", {label: _numbers(pairs) for label, pairs in self.ends.items()})
+        object.__setattr__(
+            self, "ends", {label: _numbers(pairs) for label, pairs in self.ends.items()}
+        )
         if self.parent is None:
             self._check_labels()
         elif self.number_of_triangles != 4 * self.parent.number_of_triangles:
-            raise MeshError("mesh: no uniform refinement of its parent; make it by refined(), or drop the parent")
+            raise MeshError(
+                "mesh: no uniform refinement of its parent; make it by refined(), or drop the parent"
+            )
 
     @classmethod
     def from_skfem(cls, mesh):
         """A scikit-fem mesh whose named boundaries are the labels."""
-        return cls(mesh.p, mesh.t, {name: mesh.facets[:, k] for name, k in (mesh.boundaries or {}).items()})
+        return cls(
+            mesh.p, mesh.t, {name: mesh.facets[:, k] for name, k in (mesh.boundaries or {}).items()}
+        )
 
     def _check_labels(self):
         times = np.zeros(self.number_of_facets, dtype=int)
@@ -82,7 +91,9 @@ class Triangulation:
 
     @property
     def facets(self):
-        """End vertices of each facet, the smaller number first, in lexicographic order, shape (2, nf)."""
+        """End vertices of each facet, the smaller number first, in lexicographic order, shape (2,
+        nf).
+        """
         return self._facets[0]
 
     @property
@@ -91,7 +102,9 @@ class Triangulation:
         return self._facets[1]
 
     def forget_facets(self):
-        """Give back the memory of `facets` and `t2f`, 24 bytes a triangle; they are made again when asked for."""
+        """Give back the memory of `facets` and `t2f`, 24 bytes a triangle; they are made again when
+        asked for.
+        """
         self.__dict__.pop("_facets", None)
 
     @cached_property
@@ -105,8 +118,12 @@ class Triangulation:
         facets, count = self.t2f.ravel(), self.number_of_triangles
         owners = np.tile(np.arange(count), 3)
         ones = np.ones(facets.size, dtype=np.int8)
-        incidence = coo_array((ones, (owners, facets)), shape=(count, self.number_of_facets)).tocsr()
-        return connected_components(incidence @ incidence.T, directed=False, return_labels=False) == 1
+        incidence = coo_array(
+            (ones, (owners, facets)), shape=(count, self.number_of_facets)
+        ).tocsr()
+        return (
+            connected_components(incidence @ incidence.T, directed=False, return_labels=False) == 1
+        )
 
     def triangles_at(self, label):
         """The triangles with a facet that carries `label`, each once, as `Triangles`."""
@@ -155,7 +172,9 @@ class Triangulation:
 
     @cached_property
     def stretch(self):
-        """The largest ratio of a triangle's longest edge to the height on it, dimensionless; refinement keeps it."""
+        """The largest ratio of a triangle's longest edge to the height on it, dimensionless;
+        refinement keeps it.
+        """
         if self.parent is not None:
             return self.parent.stretch
         return max(self._stretch(cells) for cells in blocks(self.number_of_triangles))
@@ -171,7 +190,9 @@ class Triangulation:
         starts = np.zeros(self.number_of_vertices, dtype=bool)
         starts[np.minimum(*ends)] = True
         near = np.flatnonzero(starts[self.facets[0]]).astype(np.int32)
-        known, wanted = (pair_keys(pairs, self.number_of_vertices) for pairs in (self.facets[:, near], ends))
+        known, wanted = (
+            pair_keys(pairs, self.number_of_vertices) for pairs in (self.facets[:, near], ends)
+        )
         _check_sides(self.p, label, ends[:, ~np.isin(wanted, known)])
         return np.sort(near[np.searchsorted(known, wanted)])
 
@@ -189,14 +210,18 @@ class Triangulation:
 
     def same_as(self, other):
         """Whether `other` is the same triangulation, numbered alike."""
-        return self is other or (np.array_equal(self.t, other.t) and np.array_equal(self.p, other.p))
+        return self is other or (
+            np.array_equal(self.t, other.t) and np.array_equal(self.p, other.p)
+        )
 
     def corner_values(self, u):
         """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
         return u[self.t]
 
     def edge_vectors(self, cells):
-        """The edges 01, 12 and 20 of some triangles as vectors, shape (3, 2, len(cells)), unit of length."""
+        """The edges 01, 12 and 20 of some triangles as vectors, shape (3, 2, len(cells)), unit of
+        length.
+        """
         corners = self.corners(cells)
         return (corners[:, [1, 2, 0]] - corners).transpose(1, 0, 2)
 
@@ -224,7 +249,9 @@ class Triangulation:
         p = np.concatenate([self.p, 0.5 * (self.p[:, start] + self.p[:, end])], axis=1)
         a, b, c = self.t
         ab, bc, ac = middles(self)
-        t = np.stack([np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))])
+        t = np.stack(
+            [np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))]
+        )
         ends = {label: self._halves(self.boundary_facets(label)) for label in self.ends}
         count = self.number_of_triangles * np.arange(4)[:, None]
         subdomains = {name: (cells + count).ravel() for name, cells in self.subdomains.items()}
@@ -241,16 +268,22 @@ class Triangulation:
         return self.parent
 
     def vertex_parents(self):
-        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both of them."""
+        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both
+        of them.
+        """
         own = np.arange(self.parent.number_of_vertices, dtype=self.parent.facets.dtype)
         return np.concatenate([np.stack([own, own]), self.parent.facets], axis=1)
 
     def children(self, values):
-        """Values on the four children of every triangle of `coarser()`, a copy; see `Grid.children`."""
+        """Values on the four children of every triangle of `coarser()`, a copy; see
+        `Grid.children`.
+        """
         return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2).copy()
 
     def vertex_children(self, values):
-        """Values at the vertices of the four children of every triangle of `coarser()`; see `Grid.vertex_children`."""
+        """Values at the vertices of the four children of every triangle of `coarser()`; see
+        `Grid.vertex_children`.
+        """
         return self.children(values)
 
     def from_vertex_children(self, family):

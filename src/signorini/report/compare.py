@@ -11,24 +11,32 @@ def compare(published, errors, rates):
     Parameters
     ----------
     published : sequence of mapping
-        Rows with cell, quantity (error or slope), norm, element, n, value as printed, unit of the last printed digit,
-        and tolerance in those units, all text.
+        Rows with cell, quantity (error or slope), norm, element, n, value as printed, unit of the
+        last printed digit, and tolerance in those units, all text.
     errors, rates : sequence of mapping
         Rows of errors.csv and rates.csv, all text.
 
     Returns
     -------
     list of dict
-        One row per published number: cell, published, computed, units (the difference, in units of the last printed
-        digit), ok (1 or 0).
+        One row per published number: cell, published, computed, units (the difference, in units of
+        the last printed digit), ok (1 or 0).
 
     Raises
     ------
     SignoriniError
         If a published number has no computed counterpart.
     """
-    computed = {("error", norm, row["element"], row["n"]): row[norm] for row in errors for norm in ("l2", "h1")}
-    computed |= {("slope", row["norm"], row["element"], ""): row["slope"] for row in rates if row["kind"] == "mean"}
+    computed = {
+        ("error", norm, row["element"], row["n"]): row[norm]
+        for row in errors
+        for norm in ("l2", "h1")
+    }
+    computed |= {
+        ("slope", row["norm"], row["element"], ""): row["slope"]
+        for row in rates
+        if row["kind"] == "mean"
+    }
     return [_row(number, computed) for number in published]
 
 
@@ -62,7 +70,9 @@ def verdict(rows, source):
             f"{row['cell']}: published {row['published']}, computed {row['computed']}, {row['units']} units off"
             for row in wrong
         )
-        raise SignoriniError(f"{source}: {len(wrong)} of {len(rows)} published numbers not met: {cells}")
+        raise SignoriniError(
+            f"{source}: {len(wrong)} of {len(rows)} published numbers not met: {cells}"
+        )
     errors = [row for row in rows if not row["cell"].endswith("slope")]
     exact = sum(abs(Decimal(row["units"])) <= Decimal("0.5") for row in errors)
     worst = max(rows, key=lambda row: abs(Decimal(row["units"])))

@@ -35,16 +35,24 @@ def check_expectations(expected, errors, rates, source):
     """
     rates = [row for row in rates if row["norm"] in expected["slopes"]]
     wrong = [
-        f"{row['element']} {row['norm']} {_NO_SLOPE[trouble_of(row)]}" for row in rates if trouble_of(row) != SOUND
+        f"{row['element']} {row['norm']} {_NO_SLOPE[trouble_of(row)]}"
+        for row in rates
+        if trouble_of(row) != SOUND
     ]
     near = f"within {expected['tolerance']:g}"
     wrong += [
         f"{row['element']} {row['norm']} slope {row['slope']:.3f}, expected {expected['slopes'][row['norm']]:g} {near}"
         for row in rates
-        if trouble_of(row) == SOUND and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
+        if trouble_of(row) == SOUND
+        and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
     ]
     bound = expected.get("errors_below", float("inf"))
-    sizes = [(float(row[norm]), row["element"], row["n"], norm) for row in errors for norm in RATED if row.get(norm)]
+    sizes = [
+        (float(row[norm]), row["element"], row["n"], norm)
+        for row in errors
+        for norm in RATED
+        if row.get(norm)
+    ]
     wrong += [
         f"{element} n = {n} {norm} error {size:.2e}, expected below {bound:g}"
         for size, element, n, norm in sizes
@@ -52,6 +60,8 @@ def check_expectations(expected, errors, rates, source):
     ]
     if wrong:
         found = "; ".join(wrong)
-        raise SignoriniError(f"{source}: not as the scene expects: {found}; correct the scene, or its section expect")
+        raise SignoriniError(
+            f"{source}: not as the scene expects: {found}; correct the scene, or its section expect"
+        )
     found = [f"{row['element']} {row['norm']} {row['slope']:.2f}" for row in rates]
     return "as expected: " + (", ".join(found) if found else f"largest error {max(sizes)[0]:.1e}")

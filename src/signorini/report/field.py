@@ -1,4 +1,6 @@
-"""What a figure of any scene shows: u on a triangulation of bearable size, and what happens on its boundary."""
+"""What a figure of any scene shows: u on a triangulation of bearable size, and what happens on its
+boundary.
+"""
 
 import numpy as np
 
@@ -17,20 +19,23 @@ def field_of(mesh, solution, most_triangles=20000):
         The solution's.
     solution : StoredSolution
     most_triangles : int, optional
-        Above this, u is shown on the finest of the meshes that `mesh` was refined from which has no more triangles, or
-        on the coarsest there is; by its values at the corners of those triangles. The boundary's state stays as fine
-        as it was.
+        Above this, u is shown on the finest of the meshes that `mesh` was refined from which has no
+        more triangles, or on the coarsest there is; by its values at the corners of those
+        triangles. The boundary's state stays as fine as it was.
 
     Returns
     -------
     dict
-        ``p`` (2, nv), unit of length, and ``t`` (3, nt), a triangulation; ``values`` (3, nt), u at the corners of each
-        triangle; ``range`` (2,), the least and the greatest degree of freedom; ``edges_dirichlet``, ``edges_contact``
-        and ``edges_neumann`` (2, k), vertices of the boundary facets in the order in which one walks along them;
-        ``critical_points`` (c, 2); ``binding`` (m, 2, 2), start and end (x, y) of the pieces of contact facets that
-        bind, in the same order.
+        ``p`` (2, nv), unit of length, and ``t`` (3, nt), a triangulation; ``values`` (3, nt), u at
+        the corners of each triangle; ``range`` (2,), the least and the greatest degree of freedom;
+        ``edges_dirichlet``, ``edges_contact`` and ``edges_neumann`` (2, k), vertices of the
+        boundary facets in the order in which one walks along them;
+        ``critical_points`` (c, 2); ``binding`` (m, 2, 2), start and end (x, y) of the pieces of
+        contact facets that bind, in the same order.
     """
-    shown, values = _coarsened(mesh, find_element(solution.element).vertex_values(mesh, solution.u), most_triangles)
+    shown, values = _coarsened(
+        mesh, find_element(solution.element).vertex_values(mesh, solution.u), most_triangles
+    )
     return {
         "p": shown.p,
         "t": shown.t,

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from signorini.report.tables import ELEMENTS, NORMS, fixed, percent, slopes_by_series
 
 SERIES = {
-    f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element) for norm in ("l2", "h1", "h1_semi") for element in ELEMENTS
+    f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element)
+    for norm in ("l2", "h1", "h1_semi")
+    for element in ELEMENTS
 }
 L2_SERIES = {name: key for name, key in SERIES.items() if key[0] == "l2"}
 PRINTED_SERIES = {name: key for name, key in SERIES.items() if key[0] in ("l2", "h1")}
@@ -41,7 +43,9 @@ OPTIONAL = {
         "CellsExact": "of them, those equal in every printed digit",
         "LargestDeviation": "largest deviation, in units of the last printed digit, 2 decimals",
     },
-    "published": {f"PublishedSlope{s}": "average slope as the paper prints it" for s in PRINTED_SERIES},
+    "published": {
+        f"PublishedSlope{s}": "average slope as the paper prints it" for s in PRINTED_SERIES
+    },
     "effects": {
         "EffectDiagonal": "largest change of an entry of Table 5.1 with the other diagonal, percent",
         "EffectLoad": "the same with the load integrated exactly",
@@ -49,8 +53,14 @@ OPTIONAL = {
         "EffectQuadrature": "the same with norms by the centroid rule",
     },
     "exact": {
-        **{f"ExactCoarsestError{s}": "CoarsestError with the load integrated exactly" for s in L2_SERIES},
-        **{f"ExactFinestError{s}": "FinestError with the load integrated exactly" for s in L2_SERIES},
+        **{
+            f"ExactCoarsestError{s}": "CoarsestError with the load integrated exactly"
+            for s in L2_SERIES
+        },
+        **{
+            f"ExactFinestError{s}": "FinestError with the load integrated exactly"
+            for s in L2_SERIES
+        },
         **{f"ExactMeanSlope{s}": "MeanSlope with the load integrated exactly" for s in L2_SERIES},
     },
     "environment": {
@@ -67,7 +77,8 @@ def macros(values: Mapping[str, object]) -> str:
     Parameters
     ----------
     values : mapping of str to object
-        Names without the prefix; values are written as plain text, with the characters TeX reserves escaped.
+        Names without the prefix; values are written as plain text, with the characters TeX reserves
+        escaped.
 
     Raises
     ------
@@ -139,14 +150,25 @@ def check_summary(check):
 
 
 def paper_values(
-    errors, rates, surface, reference_n, *, check=(), published=(), effects=None, exact=None, environment=None
+    errors,
+    rates,
+    surface,
+    reference_n,
+    *,
+    check=(),
+    published=(),
+    effects=None,
+    exact=None,
+    environment=None,
 ):
-    """Return every number of the text, formatted: the names of `REQUIRED`, and those of the groups given.
+    """Return every number of the text, formatted: the names of `REQUIRED`, and those of the groups
+    given.
 
     Parameters
     ----------
     errors, rates : sequence of mapping
-        As for `error_table`, with the elements P1 and CR, and in the rates all three norms and both kinds.
+        As for `error_table`, with the elements P1 and CR, and in the rates all three norms and both
+        kinds.
     surface : mapping of str to ndarray
         As for `figures.surface.draw_surface`; ``contact_x`` are the contact nodes of the reference.
     reference_n : int

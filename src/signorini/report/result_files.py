@@ -25,7 +25,8 @@ def read_errors(path, asked, numbers=()):
 
 
 def read_rates(path, asked, numbers=()):
-    """Read rates.csv in the same way: a row for each of ``elements``, of the rated ``norms``, and each kind of slope.
+    """Read rates.csv in the same way: a row for each of ``elements``, of the rated ``norms``, and
+    each kind of slope.
 
     Raises
     ------
@@ -33,4 +34,6 @@ def read_rates(path, asked, numbers=()):
         As `read_csv`.
     """
     norms = [norm for norm in asked["norms"] if norm in RATED]
-    return read_csv(path, numbers, every={"element": asked["elements"], "norm": norms, "kind": KINDS})
+    return read_csv(
+        path, numbers, every={"element": asked["elements"], "norm": norms, "kind": KINDS}
+    )

@@ -1,7 +1,7 @@
 """Table 5.1, in LaTeX and in Markdown, from the rows of the pipeline's CSV files.
 
-Every number is rounded once, from its binary value straight to the printed digits (Python's float formatting
-is correctly rounded, exact ties to even).
+Every number is rounded once, from its binary value straight to the printed digits (Python's float
+formatting is correctly rounded, exact ties to even).
 """
 
 from decimal import Decimal
@@ -20,7 +20,10 @@ NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters 
 }
 ELEMENTS = {"P1": "CF", "CR": "NCF"}
 
-SCIENTIFIC_BELOW, SCIENTIFIC_FROM = 1e-5, 1e4  # outside, eight decimals show too few digits or too many
+SCIENTIFIC_BELOW, SCIENTIFIC_FROM = (
+    1e-5,
+    1e4,
+)  # outside, eight decimals show too few digits or too many
 MISSING = "--"
 INACCURATE = "†"
 MARKS = {ROUND_OFF: "*", REFERENCE: "‡", NO_LOGARITHM: "§", SOUND: ""}  # of a slope
@@ -33,7 +36,9 @@ JUMPS = "Critical points are known to half a mesh width: their distances jump, a
 TEX = {"†": r"$^\dagger$", "‡": r"$^\ddagger$", "§": r"$^\S$", "%": r"\%"}
 
 
-def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None):
+def error_table(
+    errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None
+):
     r"""Return the LaTeX ``tabular`` of Table 5.1: a row for every N, a column for every norm and element.
 
     Parameters
@@ -90,14 +95,18 @@ def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="
         r"\toprule",
         _tex_row(["", *(rf"\multicolumn{{{width}}}{{c}}{{{NORMS[norm][0]}}}" for norm in norms)]),
         " ".join(rf"\cmidrule(lr){{{first}-{last}}}" for first, last in ends),
-        _tex_row(["$N$", *(rf"\multicolumn{{1}}{{c}}{{{ELEMENTS[e]}}}" for _ in norms for e in elements)]),
+        _tex_row(
+            ["$N$", *(rf"\multicolumn{{1}}{{c}}{{{ELEMENTS[e]}}}" for _ in norms for e in elements)]
+        ),
         r"\midrule",
         *(_tex_row(map(_tex_number, row)) for row in levels),
         r"\midrule",
         _tex_row(map(_tex, slopes)),
         r"\bottomrule",
         *(
-            _tex_row([rf"\multicolumn{{{1 + width * len(norms)}}}{{p{{0.9\linewidth}}}}{{{_tex(text)}}}"])
+            _tex_row(
+                [rf"\multicolumn{{{1 + width * len(norms)}}}{{p{{0.9\linewidth}}}}{{{_tex(text)}}}"]
+            )
             for text in _notes(errors, rates, norms, elements, kind, note)
         ),
         r"\end{tabular}",
@@ -105,9 +114,14 @@ def error_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="
     return "\n".join(lines) + "\n"
 
 
-def markdown_table(errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None):
+def markdown_table(
+    errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None
+):
     """Return the table of `error_table`, with the same arguments, as Markdown."""
-    head = ["N", *(f"{NORMS[norm][1]} {ELEMENTS[element]}" for norm in norms for element in elements)]
+    head = [
+        "N",
+        *(f"{NORMS[norm][1]} {ELEMENTS[element]}" for norm in norms for element in elements),
+    ]
     rows = _grid(errors, rates, norms, elements, kind, decimals)
     table = "".join(f"| {' | '.join(row)} |\n" for row in [head, ["---:"] * len(head), *rows])
     notes = _notes(errors, rates, norms, elements, kind, note)
@@ -123,7 +137,11 @@ def _grid(errors, rates, norms, elements, kind, decimals):
         raise ValueError("errors: an element and n occur twice")
     levels = sorted({n for _, n in rows})
     slopes = slopes_by_series(rates, kind)
-    marks = {(row["norm"], row["element"]): MARKS[trouble_of(row)] for row in rates if row["kind"] == kind}
+    marks = {
+        (row["norm"], row["element"]): MARKS[trouble_of(row)]
+        for row in rates
+        if row["kind"] == kind
+    }
     inaccurate = {key for key, row in rows.items() if row.get("status") == "inaccurate"}
     columns = [[*map(str, levels), "slope"]]
     for norm in norms:
@@ -131,15 +149,24 @@ def _grid(errors, rates, norms, elements, kind, decimals):
             cells = [rows.get((element, n), {}).get(norm) for n in levels]
             slope = fixed(slopes.get((norm, element)), 2) + marks.get((norm, element), "")
             printed = zip(levels, _format_column(cells, decimals), strict=True)
-            marked = [cell + INACCURATE * ((element, n) in inaccurate and cell != MISSING) for n, cell in printed]
+            marked = [
+                cell + INACCURATE * ((element, n) in inaccurate and cell != MISSING)
+                for n, cell in printed
+            ]
             columns.append([*marked, slope])
     return [list(row) for row in zip(*columns, strict=True)]
 
 
 def _notes(errors, rates, norms, elements, kind, note):
     """The lines under the table: what its marks mean, and what else is to be known."""
-    marked = [row for row in errors if row["element"] in elements and row.get("status") == "inaccurate"]
-    shown = [row for row in rates if row["kind"] == kind and row["norm"] in norms and row["element"] in elements]
+    marked = [
+        row for row in errors if row["element"] in elements and row.get("status") == "inaccurate"
+    ]
+    shown = [
+        row
+        for row in rates
+        if row["kind"] == kind and row["norm"] in norms and row["element"] in elements
+    ]
     troubles = {trouble_of(row) for row in shown}
     notes = [_inaccurate(marked)] if marked else []
     notes += [f"{MARKS[trouble]} {text}" for trouble, text in NOTES.items() if trouble in troubles]
@@ -191,7 +218,9 @@ def _format_column(values, decimals):
 def _tex_number(text):
     number = text.rstrip(INACCURATE)
     mantissa, e, exponent = number.partition("e")
-    return (rf"${mantissa}\times10^{{{int(exponent)}}}$" if e else number) + _tex(text[len(number) :])
+    return (rf"${mantissa}\times10^{{{int(exponent)}}}$" if e else number) + _tex(
+        text[len(number) :]
+    )
 
 
 def _tex(text):

@@ -11,7 +11,8 @@ from signorini.exceptions import SignoriniError
 from signorini.storage import replacing
 
 _TROUBLE = re.compile(
-    r"^(?:! .*|.*Overfull .*|.*undefined.*|.*multiply defined.*|.*Font shape .* not available.*)$", re.M
+    r"^(?:! .*|.*Overfull .*|.*undefined.*|.*multiply defined.*|.*Font shape .* not available.*)$",
+    re.M,
 )
 _PAGES = re.compile(r"Output written on .*?\((\d+) pages?")
 
@@ -36,7 +37,8 @@ def typeset(source, parts, output):
     Raises
     ------
     SignoriniError
-        If LaTeX fails, or warns of an undefined reference or an overfull box: with its own first words on it.
+        If LaTeX fails, or warns of an undefined reference or an overfull box: with its own first
+        words on it.
     """
     with tempfile.TemporaryDirectory(prefix="signorini-") as folder:
         folder = Path(folder)
@@ -58,12 +60,18 @@ def typeset(source, parts, output):
             "-silent",
             f"{name}.tex",
         ]
-        result = subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False)
+        result = subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, check=False
+        )
         log = folder / f"{name}.log"
         text = log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
         trouble = _TROUBLE.search(text)
         if result.returncode or trouble or not (folder / f"{name}.pdf").is_file():
-            said = trouble.group(0) if trouble else result.stderr.decode(errors="replace").strip()[-300:]
+            said = (
+                trouble.group(0)
+                if trouble
+                else result.stderr.decode(errors="replace").strip()[-300:]
+            )
             raise SignoriniError(
                 f"{source}: LaTeX: {said or 'failed without a message'}; mend the source or install what is missing"
             )

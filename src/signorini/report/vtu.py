@@ -29,10 +29,10 @@ def write_vtu(path, mesh, solution):
         If the file cannot be written; the old one is then as it was.
 
     Notes
-    -----
-    Cells are the triangles, then the boundary facets as lines. Point data ``u``; for CR, which jumps across facets,
-    every triangle has points of its own. Cell data ``gradient`` (3 components, on a line that of the triangle behind
-    it) and ``label``: 0 on triangles, 1 on Dirichlet, 2 on contact, 3 on Neumann facets.
+    ----- Cells are the triangles, then the boundary facets as lines. Point data ``u``; for CR,
+    which jumps across facets, every triangle has points of its own. Cell data ``gradient`` (3
+    components, on a line that of the triangle behind it) and ``label``: 0 on triangles, 1 on
+    Dirichlet, 2 on contact, 3 on Neumann facets.
     """
     import meshio
 
@@ -47,7 +47,10 @@ def write_vtu(path, mesh, solution):
         np.append(p, np.zeros((1, p.shape[1])), axis=0).T,
         [("triangle", t.T), ("line", lines.T)],
         point_data={"u": u},
-        cell_data={"gradient": [gradient, gradient[owners]], "label": [np.zeros(len(gradient), labels.dtype), labels]},
+        cell_data={
+            "gradient": [gradient, gradient[owners]],
+            "label": [np.zeros(len(gradient), labels.dtype), labels],
+        },
     )
     with (
         replacing(path, "wb") as stream,
@@ -72,7 +75,9 @@ def _broken(mesh, values):
 
 
 def _boundary(mesh, t, facets):
-    """The triangle behind each boundary facet, and the facet's end points numbered as in the triangles `t`."""
+    """The triangle behind each boundary facet, and the facet's end points numbered as in the
+    triangles `t`.
+    """
     place = np.empty(mesh.number_of_facets, dtype=int)
     place[mesh.t2f] = np.arange(mesh.t2f.size).reshape(3, -1)
     local, owners = np.divmod(place[facets], mesh.number_of_triangles)

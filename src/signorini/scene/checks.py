@@ -25,7 +25,9 @@ def check_document(document):
     _DOMAIN_CHECKS[document["domain"]["kind"]](document["domain"])
     _check_boundary(document["boundary"], _part_names(document["domain"]))
     if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
-        raise SceneError("data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y")
+        raise SceneError(
+            "data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y"
+        )
     _check_levels(document["levels"])
     _check_truth(document)
     _check_cells(document)
@@ -82,7 +84,11 @@ def _check_mesh_file(domain):
         raise SceneError("domain.file: missing; name the mesh file, relative to the scene's folder")
 
 
-_DOMAIN_CHECKS = {"rectangle": _check_rectangle, "polygon": _check_polygon, "mesh": _check_mesh_file}
+_DOMAIN_CHECKS = {
+    "rectangle": _check_rectangle,
+    "polygon": _check_polygon,
+    "mesh": _check_mesh_file,
+}
 
 
 def _check_finite(field, values):
@@ -107,12 +113,18 @@ def _check_boundary(boundary, names):
         return
     for name, label in boundary.items():
         if names is not None and name not in names:
-            raise SceneError(f"boundary.{name}: unknown key, the domain has no such part; {nearest(name, names)}")
+            raise SceneError(
+                f"boundary.{name}: unknown key, the domain has no such part; {nearest(name, names)}"
+            )
         if label not in LABELS:
-            raise SceneError(f"boundary.{name}: {shown(label)} is not valid; {nearest(label, LABELS)}")
+            raise SceneError(
+                f"boundary.{name}: {shown(label)} is not valid; {nearest(label, LABELS)}"
+            )
     missing = [name for name in names or () if name not in boundary]
     if missing:
-        raise SceneError(f"boundary.{missing[0]}: missing; add it with one of the labels {', '.join(LABELS)}")
+        raise SceneError(
+            f"boundary.{missing[0]}: missing; add it with one of the labels {', '.join(LABELS)}"
+        )
 
 
 def _check_boundary_formulas(boundary):
@@ -132,12 +144,16 @@ def _check_boundary_formulas(boundary):
         if text != "rest":
             Formula(text, f"boundary.{label}")
     if len(rest) > 1:
-        raise SceneError(f"boundary: {' and '.join(rest)} are both rest; one label at most can take what is left")
+        raise SceneError(
+            f"boundary: {' and '.join(rest)} are both rest; one label at most can take what is left"
+        )
 
 
 def _check_levels(levels):
     if any(b <= a for a, b in pairwise(levels)):
-        raise SceneError(f"levels: {shown(levels)} is not increasing; list each level once, coarsest first")
+        raise SceneError(
+            f"levels: {shown(levels)} is not increasing; list each level once, coarsest first"
+        )
 
 
 def _check_truth(document):
@@ -155,26 +171,36 @@ def _check_truth(document):
             )
         for key in ("grade", "perturb"):
             if key in domain and domain["kind"] == "rectangle":
-                raise SceneError(f"domain.{key}: the levels do not nest in a reference; drop it, or use an exact truth")
+                raise SceneError(
+                    f"domain.{key}: the levels do not nest in a reference; drop it, or use an exact truth"
+                )
     if domain["kind"] != "rectangle":
         for n in levels:
-            _check_power(n, levels[0], f"levels: {n} is no uniform refinement of the coarsest, {levels[0]}")
+            _check_power(
+                n, levels[0], f"levels: {n} is no uniform refinement of the coarsest, {levels[0]}"
+            )
 
 
 def _check_reference(levels, truth):
     if "n" not in truth:
         raise SceneError("truth.n: missing; give the level of the reference, for instance 512")
     if truth["n"] < levels[-1]:
-        raise SceneError(f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n")
+        raise SceneError(
+            f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n"
+        )
     for n in levels:
-        _check_power(truth["n"], n, f"levels: {n} does not nest in the reference, truth.n = {truth['n']}")
+        _check_power(
+            truth["n"], n, f"levels: {n} does not nest in the reference, truth.n = {truth['n']}"
+        )
 
 
 def _check_power(fine, coarse, complaint):
     ratio, rest = divmod(fine, coarse)
     if rest or ratio & (ratio - 1):
         near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
-        raise SceneError(f"{complaint}; the finer one must be {coarse} times a power of two, for instance {near}")
+        raise SceneError(
+            f"{complaint}; the finer one must be {coarse} times a power of two, for instance {near}"
+        )
 
 
 def _check_cells(document):
@@ -189,13 +215,19 @@ def _check_outputs(document):
     kind, outputs, norms = document["truth"]["kind"], document["outputs"], document["norms"]
     for output in ("errors", "rates", "table"):
         if output in outputs and kind == "none":
-            raise SceneError(f"outputs: {output} needs a truth to compare with; set truth.kind, or drop {output}")
+            raise SceneError(
+                f"outputs: {output} needs a truth to compare with; set truth.kind, or drop {output}"
+            )
     for output in ("rates", "table"):
         if output in outputs and len(document["levels"]) < 2:
-            raise SceneError(f"outputs: {output} needs two levels for a slope; add a level, or drop {output}")
+            raise SceneError(
+                f"outputs: {output} needs two levels for a slope; add a level, or drop {output}"
+            )
     contact_norms = [norm for norm in norms if norm in CONTACT]
     if contact_norms and kind != "exact":
-        raise SceneError(f"norms: {contact_norms[0]} needs an exact truth; drop it, or set truth.kind to exact")
+        raise SceneError(
+            f"norms: {contact_norms[0]} needs an exact truth; drop it, or set truth.kind to exact"
+        )
     for norm in document.get("expect", {}).get("slopes", {}):
         if norm not in norms:
             raise SceneError(f"expect.slopes.{norm}: the norm is not computed; add it to norms")

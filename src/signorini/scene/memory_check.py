@@ -1,4 +1,5 @@
-"""Whether a level fits this machine, judged before any work on it, from its domain, element and route.
+"""Whether a level fits this machine, judged before any work on it, from its domain, element and
+route.
 
 Meshes and routes judge for themselves too, but not before all that they start from has been made.
 """
@@ -19,8 +20,9 @@ def check_level(statement, element, n, method, domain=None):
     method : {"auto", "fourier", "direct", "multigrid"}
         As in `solvers.solve`.
     domain : Rectangle or Refined, optional
-        `statement.triangulations`, where it has been made already. Without it the triangles of a polygon are counted by
-        its area and those of a mesh file not at all: nothing is meshed, and NumPy not loaded unless a level is refused.
+        `statement.triangulations`, where it has been made already. Without it the triangles of a
+        polygon are counted by its area and those of a mesh file not at all: nothing is meshed, and
+        NumPy not loaded unless a level is refused.
 
     Raises
     ------
@@ -31,7 +33,9 @@ def check_level(statement, element, n, method, domain=None):
     route = "multigrid" if method == "auto" else method
     if fits(triangles, ROUTES[route][element]):
         return
-    others = [other for other in ROUTES if other != "fourier" or _fourier_applies(statement, element, n)]
+    others = [
+        other for other in ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
+    ]
     held = [other for other in others if fits(triangles, ROUTES[other][element])]
     if method == "auto":
         if held:
@@ -45,7 +49,9 @@ def check_level(statement, element, n, method, domain=None):
 
 
 def _count_roughly(domain, n):
-    """Triangles of level n of a section ``domain``: twice its area in cells, which Netgen exceeds by an eighth."""
+    """Triangles of level n of a section ``domain``: twice its area in cells, which Netgen exceeds
+    by an eighth.
+    """
     kind = domain.get("kind", "rectangle")
     if kind == "mesh":
         return 0
@@ -62,8 +68,13 @@ def _area(corners):
 
 
 def _fourier_applies(statement, element, n):
-    """Whether the fourier route solves this level: asked of a problem without data, on a grid that costs nothing."""
-    if statement.domain.get("kind", "rectangle") != "rectangle" or not statement.triangulations.uniform:
+    """Whether the fourier route solves this level: asked of a problem without data, on a grid that
+    costs nothing.
+    """
+    if (
+        statement.domain.get("kind", "rectangle") != "rectangle"
+        or not statement.triangulations.uniform
+    ):
         return False
     if getattr(statement.data.coefficient, "constant", None) != 1.0:
         return False

@@ -39,7 +39,9 @@ class Scene:
     source: Path | None = None
 
     def check(self):
-        """Check what only a triangulation shows, see `ProblemStatement.check`; errors name the file."""
+        """Check what only a triangulation shows, see `ProblemStatement.check`; errors name the
+        file.
+        """
         with _naming(self.source):
             self.problem.check()
 
@@ -54,12 +56,16 @@ class Scene:
 
     @property
     def reference_note(self):
-        """What a reference that is hardly finer than the finest level does to errors and slopes, or None."""
+        """What a reference that is hardly finer than the finest level does to errors and slopes, or
+        None.
+        """
         return reference_note(self.truth, self.levels, self.elements)
 
     @property
     def warnings(self):
-        """What a user should know though the scene is valid: a list of lines, each of which names its field."""
+        """What a user should know though the scene is valid: a list of lines, each of which names
+        its field.
+        """
         measured = {"errors", "rates", "table"} & set(self.document["outputs"])
         return [f"truth.n: {self.reference_note}"] if measured and self.reference_note else []
 
@@ -107,7 +113,9 @@ def load_scene(path):
 
 
 def read_scene(path):
-    """As `load_scene`, without `Scene.check`: what the document alone shows is validated, and numpy not imported."""
+    """As `load_scene`, without `Scene.check`: what the document alone shows is validated, and numpy
+    not imported.
+    """
     path = Path(path)
     check_name(path.stem)
     written = load_yaml(path)
@@ -135,14 +143,18 @@ def _naming(path):
 
 
 def _statement(document):
-    keys = ["domain", "boundary", "data", "load_quadrature"] + ["truth"] * (document["truth"]["kind"] == "exact")
+    keys = ["domain", "boundary", "data", "load_quadrature"] + ["truth"] * (
+        document["truth"]["kind"] == "exact"
+    )
     return {key: document[key] for key in keys} | {"coarsest": document["levels"][0]}
 
 
 def check_name(name):
     """Refuse a scene name that could leave its folder or trouble a shell."""
     if name in _RESERVED:
-        raise SceneError(f"scene name {name!r}: results/{name} is used for other things; choose another name")
+        raise SceneError(
+            f"scene name {name!r}: results/{name} is used for other things; choose another name"
+        )
     if not _NAME.fullmatch(name):
         raise SceneError(
             f"scene name {name[:80]!r} is not valid; use 1 to 64 letters, digits, '-' and '_', "
@@ -151,7 +163,9 @@ def check_name(name):
 
 
 def _mesh_file(file, scene_path):
-    """Path of the mesh file from the working folder; it must lie in the folder above that of the scene."""
+    """Path of the mesh file from the working folder; it must lie in the folder above that of the
+    scene.
+    """
     from signorini.mesh.imported import resolve_mesh_path
 
     folder = scene_path.absolute().parent

@@ -1,4 +1,6 @@
-"""Validation of parsed YAML against a JSON schema, with defaults filled in and errors a person can act on."""
+"""Validation of parsed YAML against a JSON schema, with defaults filled in and errors a person can
+act on.
+"""
 
 import copy
 from functools import cache
@@ -29,7 +31,9 @@ def validated(document, schema, source):
         One line that names the file, the field, the value and the remedy.
     """
     if not isinstance(document, dict):
-        raise SceneError(f"{source}: expected 'key: value' lines at the top, found {shown(document)}")
+        raise SceneError(
+            f"{source}: expected 'key: value' lines at the top, found {shown(document)}"
+        )
     error = min(_validator()(schema).iter_errors(document), key=_order, default=None)
     if error is not None:
         raise SceneError(f"{source}: {_explain(error, schema)}")
@@ -44,12 +48,18 @@ def _validator():
     """JSON schema's rules, but 2.0 is no integer: it would name the file n2.0.npz."""
     from jsonschema import Draft202012Validator, validators
 
-    whole = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, value: type(value) is int)
+    whole = Draft202012Validator.TYPE_CHECKER.redefine(
+        "integer", lambda _, value: type(value) is int
+    )
     return validators.extend(Draft202012Validator, type_checker=whole)
 
 
 def _order(error):
-    return error.validator != "additionalProperties", len(error.absolute_path), str(list(error.absolute_path))
+    return (
+        error.validator != "additionalProperties",
+        len(error.absolute_path),
+        str(list(error.absolute_path)),
+    )
 
 
 def _check_kinds(document, schema, source, field=""):
@@ -82,7 +92,11 @@ def _explain(error, schema):
     if error.validator == "additionalProperties":
         known = list(error.schema["properties"])
         key = next(key for key in error.instance if key not in known)
-        homes = [section for section, part in schema["properties"].items() if key in part.get("properties", {})]
+        homes = [
+            section
+            for section, part in schema["properties"].items()
+            if key in part.get("properties", {})
+        ]
         if homes and not field:
             return f"{_name([key])}: unknown key here; it belongs into the section {' or '.join(homes)}"
         return f"{below}{_name([key])}: unknown key; {nearest(key, known)}"
@@ -95,15 +109,22 @@ def _explain(error, schema):
 
 
 def _name(path):
-    """The place of a value, its parts joined by dots; a part that is long or unprintable is shown as JSON."""
-    return ".".join(str(part) if str(part).isprintable() and len(str(part)) <= WIDTH else shown(part) for part in path)
+    """The place of a value, its parts joined by dots; a part that is long or unprintable is shown
+    as JSON.
+    """
+    return ".".join(
+        str(part) if str(part).isprintable() and len(str(part)) <= WIDTH else shown(part)
+        for part in path
+    )
 
 
 def _remedy(error):
     value, bound = error.instance, error.validator_value
     return {
         "enum": lambda: nearest(value, [str(v) for v in bound]),
-        "oneOf": lambda: _too_long(value, error.schema["oneOf"]) or f"expected {_alternatives(error.schema)}",
+        "oneOf": lambda: (
+            _too_long(value, error.schema["oneOf"]) or f"expected {_alternatives(error.schema)}"
+        ),
         "type": lambda: f"expected {_named_types(bound)}",
         "minimum": lambda: f"must be at least {bound}",
         "maximum": lambda: f"must be at most {bound}",
@@ -138,7 +159,9 @@ _TYPES = {
 
 
 def _named_types(names):
-    return " or ".join(_TYPES.get(name, name) for name in ([names] if isinstance(names, str) else names))
+    return " or ".join(
+        _TYPES.get(name, name) for name in ([names] if isinstance(names, str) else names)
+    )
 
 
 def _entries(count):
@@ -147,7 +170,9 @@ def _entries(count):
 
 def _alternatives(schema):
     return " or ".join(
-        ", ".join(map(str, part["enum"])) if "enum" in part else _TYPES.get(part.get("type"), "another value")
+        ", ".join(map(str, part["enum"]))
+        if "enum" in part
+        else _TYPES.get(part.get("type"), "another value")
         for part in schema["oneOf"]
     )
 

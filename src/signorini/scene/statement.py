@@ -41,15 +41,20 @@ class ProblemStatement:
 
     @property
     def needs_mesh(self):
-        """Whether more can be wrong than a document shows: the domain, names in a mesh file, an exact truth."""
-        plain = self.domain.get("kind", "rectangle") == "rectangle" and not by_formula(self.boundary)
+        """Whether more can be wrong than a document shows: the domain, names in a mesh file, an
+        exact truth.
+        """
+        plain = self.domain.get("kind", "rectangle") == "rectangle" and not by_formula(
+            self.boundary
+        )
         return not plain or self.exact is not None
 
     def check(self):
-        """Check what only a triangulation shows, on the coarsest level; once, however often it is called.
+        """Check what only a triangulation shows, on the coarsest level; once, however often it is
+        called.
 
-        The domain and the names of its parts; subdomains of the coefficient; typed data against an exact truth, and
-        that against balance and Signorini's conditions.
+        The domain and the names of its parts; subdomains of the coefficient; typed data against an
+        exact truth, and that against balance and Signorini's conditions.
 
         Raises
         ------
@@ -82,7 +87,11 @@ class ProblemStatement:
 
         Data that are not typed are derived from the exact truth, or zero.
         """
-        typed = {name: Formula(text, f"data.{name}") for name, text in mapping["data"].items() if name != "coefficient"}
+        typed = {
+            name: Formula(text, f"data.{name}")
+            for name, text in mapping["data"].items()
+            if name != "coefficient"
+        }
         if "coefficient" in mapping["data"]:
             typed["coefficient"] = read_coefficient(mapping["data"]["coefficient"])
         exact = None
@@ -92,7 +101,9 @@ class ProblemStatement:
             exact = read_exact(mapping["truth"])
             coefficient = typed.get("coefficient", Formula("1"))
             if not isinstance(coefficient, Formula):
-                raise SceneError("data.coefficient: an exact truth needs a formula in x and y, not a section")
+                raise SceneError(
+                    "data.coefficient: an exact truth needs a formula in x and y, not a section"
+                )
             if coefficient.text != "1":
                 exact = Diffused(exact, coefficient)
             data = replace(derived_data(exact), **typed)

@@ -1,4 +1,6 @@
-"""YAML as people read it: no duplicate keys, no tags, no aliases, and 1.2's plain true, false and numbers."""
+"""YAML as people read it: no duplicate keys, no tags, no aliases, and 1.2's plain true, false and
+numbers.
+"""
 
 import math
 import re
@@ -44,7 +46,10 @@ class _Loader(yaml.SafeLoader):
                 raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
             if key in seen:
                 raise yaml.constructor.ConstructorError(
-                    None, None, f"duplicate key {_cut(key)!r}; keep one of the two", key_node.start_mark
+                    None,
+                    None,
+                    f"duplicate key {_cut(key)!r}; keep one of the two",
+                    key_node.start_mark,
                 )
             seen[key] = None
         return super().construct_mapping(node, deep)
@@ -56,7 +61,9 @@ for _tag, _pattern, _first in (
     ("float", r"[-+]?(?:0|[1-9][0-9]*)?(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?", "-+.0123456789"),
     ("null", r"null|~|", ["n", "~", ""]),
 ):
-    _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", re.compile(rf"^(?:{_pattern})$"), list(_first))
+    _Loader.add_implicit_resolver(
+        f"tag:yaml.org,2002:{_tag}", re.compile(rf"^(?:{_pattern})$"), list(_first)
+    )
 
 
 def _float(loader, node):
@@ -67,7 +74,10 @@ def _float(loader, node):
         return text
     if not math.isfinite(value):
         raise yaml.constructor.ConstructorError(
-            None, None, f"number {_cut(text, 20)} is out of range; a double holds up to 1.8e308", node.start_mark
+            None,
+            None,
+            f"number {_cut(text, 20)} is out of range; a double holds up to 1.8e308",
+            node.start_mark,
         )
     return value
 
@@ -104,7 +114,9 @@ def load_yaml(path):
     except OSError as error:
         raise SceneError(f"{path}: cannot be read ({error.strerror}); check the name") from error
     except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: not UTF-8 text ({error.reason} at byte {error.start}); save it as UTF-8") from error
+        raise SceneError(
+            f"{path}: not UTF-8 text ({error.reason} at byte {error.start}); save it as UTF-8"
+        ) from error
     if len(text) > _MAX_BYTES:
         raise SceneError(f"{path}: longer than {_MAX_BYTES} characters; is this a scene?")
     try:
@@ -116,4 +128,6 @@ def load_yaml(path):
         remedy = "" if "; " in problem else "; mend this line"
         raise SceneError(f"{path}: {place}{problem}{remedy}") from error
     except (yaml.YAMLError, RecursionError) as error:
-        raise SceneError(f"{path}: malformed YAML ({_cut(str(error).splitlines()[0], 200)})") from error
+        raise SceneError(
+            f"{path}: malformed YAML ({_cut(str(error).splitlines()[0], 200)})"
+        ) from error

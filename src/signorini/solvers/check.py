@@ -8,7 +8,8 @@ _CONTRAST = 1e16  # of a coefficient: what double precision can hold side by sid
 
 
 def check_data(problem):
-    """Refuse data that are not finite, do not fit each other, or that double precision cannot hold together.
+    """Refuse data that are not finite, do not fit each other, or that double precision cannot hold
+    together.
 
     Raises
     ------
@@ -23,11 +24,17 @@ def check_data(problem):
     for dofs, values in (("contact", "lower"), ("fixed", "fixed_values")):
         numbers, count = getattr(problem, dofs), getattr(problem, values).size
         if numbers.size != count:
-            raise SolverError(f"problem.{values}: {count} values for {numbers.size} dofs in problem.{dofs}")
+            raise SolverError(
+                f"problem.{values}: {count} values for {numbers.size} dofs in problem.{dofs}"
+            )
         if numbers.size and not 0 <= numbers.min() <= numbers.max() < problem.b.size:
-            raise SolverError(f"problem.{dofs}: a dof is not one of the {problem.b.size} that problem.b has")
+            raise SolverError(
+                f"problem.{dofs}: a dof is not one of the {problem.b.size} that problem.b has"
+            )
     if np.intersect1d(problem.contact, problem.fixed).size:
-        raise SolverError("problem.contact: a dof is in problem.fixed, too; leave it out of one of them")
+        raise SolverError(
+            "problem.contact: a dof is in problem.fixed, too; leave it out of one of them"
+        )
     _check_coefficient(problem.coefficient)
 
 
@@ -63,16 +70,23 @@ def checked_guess(problem, guess):
 
 
 def check_symmetric(A):
-    """Hold x . A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not finite."""
+    """Hold x .
+
+    A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not
+    finite.
+    """
     x = np.random.default_rng(0).random(A.shape[0]) - 0.5
     y = x[::-1].copy()
     Ax, Ay = A @ x, A @ y
     if not abs(x @ Ay - y @ Ax) <= 1e-9 * np.sqrt(x @ x) * np.sqrt(Ax @ Ax):
-        raise SolverError("problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form")
+        raise SolverError(
+            "problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form"
+        )
 
 
 def check_solvable(problem):
-    """Hold the load of each part of the body that no Dirichlet part holds: its sum decides (Fichera's condition).
+    """Hold the load of each part of the body that no Dirichlet part holds: its sum decides
+    (Fichera's condition).
 
     Raises
     ------
@@ -81,7 +95,11 @@ def check_solvable(problem):
     """
     for part in _floating_parts(problem):
         load = problem.b if part is None else problem.b[part]
-        contact = problem.contact.size if part is None else np.isin(problem.contact, part, kind="sort").sum()
+        contact = (
+            problem.contact.size
+            if part is None
+            else np.isin(problem.contact, part, kind="sort").sum()
+        )
         _check_load(load, contact, _place(problem, part))
 
 
@@ -116,7 +134,9 @@ def _check_load(load, contact, place):
             "contact anywhere; join it to a dirichlet or contact part of the boundary"
         )
     if not contact:
-        raise SolverError("boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best")
+        raise SolverError(
+            "boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best"
+        )
     if abs(total) <= rounding:
         raise SolverError(
             f"nonunique: no dirichlet part{place} and int f + int g = 0, so a constant may be added to u; "

@@ -1,9 +1,9 @@
 """A problem's stiffness matrix factorised once, and its Schur complement on the contact dofs.
 
-Nested dissection orders the dofs with the contact dofs last, so that the trailing block of the factors is the Schur
-complement S on them: neither a second factorisation nor a solve per contact dof is needed. A spring as stiff as S on
-each contact dof, taken off S again, keeps the factors well conditioned where only the inequality, or a weak part of
-the body, holds it.
+Nested dissection orders the dofs with the contact dofs last, so that the trailing block of the
+factors is the Schur complement S on them: neither a second factorisation nor a solve per contact
+dof is needed. A spring as stiff as S on each contact dof, taken off S again, keeps the factors well
+conditioned where only the inequality, or a weak part of the body, holds it.
 """
 
 import numpy as np
@@ -82,7 +82,8 @@ class Condensed:
         return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
 
     def extend(self, load, w, reduced=None):
-        """The free dofs in equilibrium with `load` when the contact dofs equal `w`; zero on the fixed ones.
+        """The free dofs in equilibrium with `load` when the contact dofs equal `w`; zero on the
+        fixed ones.
 
         `reduced` is ``reduce(load)`` where it is known.
         """
@@ -124,7 +125,9 @@ def why_singular(problem):
 
 
 def loose_part(problem):
-    """A point of a part of the body that neither a Dirichlet nor a contact part holds, (2,), or None."""
+    """A point of a part of the body that neither a Dirichlet nor a contact part holds, (2,), or
+    None.
+    """
     from scipy.sparse.csgraph import connected_components
 
     count, part = connected_components(problem.A, directed=False)
@@ -138,8 +141,9 @@ def loose_part(problem):
 def dissection_order(A, nodes):
     """Order the rows of a symmetric matrix by nested dissection of their coordinates (George 1973).
 
-    The coordinate ranks' binary digits bisect the set again and again, along x and y in turn; an entry that
-    joins two halves makes its row in the first half part of their separator, ordered after both.
+    The coordinate ranks' binary digits bisect the set again and again, along x and y in turn; an
+    entry that joins two halves makes its row in the first half part of their separator, ordered
+    after both.
 
     Parameters
     ----------

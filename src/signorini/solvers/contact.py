@@ -1,11 +1,12 @@
 """Signorini's inequality condensed to the contact dofs, by safeguarded block principal pivoting.
 
-Find ``w >= 0`` with ``multiplier = S w - q >= 0`` and ``w . multiplier = 0``: `w` is the gap ``u - lower`` on
-the contact dofs, `S` the stiffness with every other dof eliminated. The plain primal-dual active set method
-(Hintermüller, Ito & Kunisch, SIAM J. Optim. 13, 2002) moves every dof of violated sign to the other side; it
-cycles where `S` is no M-matrix or degenerate signs are round-off. So signs count only beyond a dead band of
-rounding size, and exchanges shrink when they stop paying (Júdice & Pires, Comput. Oper. Res. 21, 1994), at
-last to the least-index rule, finite for every positive definite `S` (Murty, Opsearch 11, 1974).
+Find ``w >= 0`` with ``multiplier = S w - q >= 0`` and ``w . multiplier = 0``: `w` is the gap ``u -
+lower`` on the contact dofs, `S` the stiffness with every other dof eliminated. The plain
+primal-dual active set method (Hintermüller, Ito & Kunisch, SIAM J. Optim. 13, 2002) moves every dof
+of violated sign to the other side; it cycles where `S` is no M-matrix or degenerate signs are
+round-off. So signs count only beyond a dead band of rounding size, and exchanges shrink when they
+stop paying (Júdice & Pires, Comput. Oper. Res. 21, 1994), at last to the least-index rule, finite
+for every positive definite `S` (Murty, Opsearch 11, 1974).
 """
 
 from dataclasses import dataclass
@@ -15,7 +16,11 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.work import count
 
-PATIENCE = (5, 100, np.inf)  # exchanges of all, the worse half, or one, without fewer violations; measured
+PATIENCE = (
+    5,
+    100,
+    np.inf,
+)  # exchanges of all, the worse half, or one, without fewer violations; measured
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return
 
 
@@ -26,11 +31,13 @@ class ContactResult:
     Attributes
     ----------
     w, multiplier : ndarray, shape (n,)
-        Gap, in units of `u`, and ``S w - q``, in units of `q`; both >= 0, one of each pair exactly zero.
+        Gap, in units of `u`, and ``S w - q``, in units of `q`; both >= 0, one of each pair exactly
+        zero.
     active : ndarray of bool, shape (n,)
         The contact set ``w == 0``.
     residual : float
-        ``max |min(w d, (S w - q) / d)|`` over ``max(w d, |q| / d)``, ``d = sqrt(diag S)``; dimensionless.
+        ``max |min(w d, (S w - q) / d)|`` over ``max(w d, |q| / d)``, ``d = sqrt(diag S)``;
+        dimensionless.
     iterations, solves : int
         Active sets examined; linear systems solved (none where no dof is free).
     block_steps, single_steps, changes : int
@@ -49,15 +56,19 @@ class ContactResult:
 
 
 class DenseContact:
-    """A condensed contact matrix `S` held as an array, shape (n, n), symmetric positive (semi)definite.
+    """A condensed contact matrix `S` held as an array, shape (n, n), symmetric positive
+    (semi)definite.
 
-    Any object with these methods, `size` (number of dofs) and `band` (relative rounding error of `w` and
-    ``S w - q``) serves: one diagonal in a cosine basis may solve by conjugate gradients from its last answer.
+    Any object with these methods, `size` (number of dofs) and `band` (relative rounding error of
+    `w` and ``S w - q``) serves: one diagonal in a cosine basis may solve by conjugate gradients
+    from its last answer.
     """
 
     def __init__(self, S):
         S = _finite("S", S)
-        if S.shape != (len(S), len(S)) or np.any(np.abs(S - S.T) > 1e-8 * np.max(np.abs(S), initial=0)):
+        if S.shape != (len(S), len(S)) or np.any(
+            np.abs(S - S.T) > 1e-8 * np.max(np.abs(S), initial=0)
+        ):
             raise SolverError(f"contact matrix S, shape {S.shape}, must be square and symmetric")
         self.S, self.absS = S, np.abs(S)
         self.size, self.band = len(S), len(S) * np.finfo(float).eps
@@ -72,14 +83,16 @@ class DenseContact:
         return self.S @ w
 
     def apply_abs(self, w):
-        """Product ``|S| |w|``, shape (n,), or a bound of that order: the size of the terms of ``S w``."""
+        """Product ``|S| |w|``, shape (n,), or a bound of that order: the size of the terms of ``S
+        w``.
+        """
         return self.absS @ np.abs(w)
 
     def solve_free(self, free, rhs):
         """Solve ``S[free, free] x = rhs`` by Cholesky's method and a step of iterative refinement.
 
-        `free` is a mask of shape (n,); `rhs` and `x` have shape (free.sum(),). Raises SolverError unless the
-        block is positive definite beyond rounding.
+        `free` is a mask of shape (n,); `rhs` and `x` have shape (free.sum(),). Raises SolverError
+        unless the block is positive definite beyond rounding.
         """
         K = self.S[np.ix_(free, free)]
         try:
@@ -111,13 +124,14 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     max_iterations : int
         Active sets to examine before giving up.
     singular : bool
-        True if the constants are the kernel of `S` (no Dirichlet side): some dof is always in contact.
+        True if the constants are the kernel of `S` (no Dirichlet side): some dof is always in
+        contact.
 
     Raises
     ------
     SolverError
-        If the data are not finite or do not fit, `S` is not positive definite, `singular` and ``sum(q) >= 0``
-        (no unique solution), or the iteration ends without a solution.
+        If the data are not finite or do not fit, `S` is not positive definite, `singular` and
+        ``sum(q) >= 0`` (no unique solution), or the iteration ends without a solution.
 
     Examples
     --------
@@ -129,7 +143,9 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     diag = np.ones(1) if singular and operator.size == 1 else operator.diagonal()
     active = q <= 0 if guess is None else np.array(guess, dtype=bool)
     if not (q.shape == active.shape == diag.shape and np.all(diag > 0)):
-        raise SolverError(f"shapes q {q.shape}, guess {active.shape}, S {diag.shape} differ, or diag S <= 0")
+        raise SolverError(
+            f"shapes q {q.shape}, guess {active.shape}, S {diag.shape} differ, or diag S <= 0"
+        )
     weight = np.sqrt(diag)
     shift = -int(np.max((np.frexp(q)[1] - np.frexp(weight)[1])[q != 0], initial=-2000))
     load = np.ldexp(q, shift)
@@ -144,7 +160,9 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     with np.errstate(over="ignore"):
         pair = np.ldexp([w, np.where(w > 0, 0.0, np.maximum(rate, 0))], -shift)
     if not (residual <= TOLERANCE and np.isfinite(pair).all()):
-        raise SolverError(f"contact solve left the residual {residual:.1e}: S ill-conditioned, or overflow")
+        raise SolverError(
+            f"contact solve left the residual {residual:.1e}: S ill-conditioned, or overflow"
+        )
     return ContactResult(*pair, w == 0, residual, *cost)
 
 
@@ -162,13 +180,24 @@ def _pivot(operator, load, weight, active, max_iterations, singular):
         pulling = rate < -band * (operator.apply_abs(w) + np.abs(load))
         wrong = np.where(active, pulling, gap < -band * np.max(np.abs(gap), initial=0))
         if not wrong.any():
-            return np.maximum(w, 0), iteration, solves, sum(rule.steps[:2]), rule.steps[2], rule.changes
+            return (
+                np.maximum(w, 0),
+                iteration,
+                solves,
+                sum(rule.steps[:2]),
+                rule.steps[2],
+                rule.changes,
+            )
         active[rule.choose(active, wrong, np.where(active, rate / weight, gap))] ^= True
-    raise SolverError(f"no contact set in {max_iterations} iterations: {rule.fewest} dofs violated at best")
+    raise SolverError(
+        f"no contact set in {max_iterations} iterations: {rule.fewest} dofs violated at best"
+    )
 
 
 class Exchange:
-    """Who changes sides: all violated dofs, the worse half, or the last; a stage without gain gives way."""
+    """Who changes sides: all violated dofs, the worse half, or the last; a stage without gain gives
+    way.
+    """
 
     def __init__(self):
         self.fewest, self.slack, self.changes, self.steps = np.inf, 1, 0, [0, 0, 0]
@@ -192,7 +221,8 @@ class Exchange:
 
 
 def _back_substitute(U, b, block=64):
-    # LU of an upper triangle never pivots, so the general solve of each block is plain back substitution.
+    # LU of an upper triangle never pivots, so the general solve of each block is plain back
+    # substitution.
     x = b.copy()
     for end in range(len(x), 0, -block):
         rows = slice(max(end - block, 0), end)
@@ -203,5 +233,7 @@ def _back_substitute(U, b, block=64):
 def _finite(name, values):
     bad = np.argwhere(~np.isfinite(values))[:1].tolist()
     if bad:
-        raise SolverError(f"{name} of the contact problem must be finite; it is not at index {bad[0]}")
+        raise SolverError(
+            f"{name} of the contact problem must be finite; it is not at index {bad[0]}"
+        )
     return np.asarray(values, dtype=float)

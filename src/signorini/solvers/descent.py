@@ -1,4 +1,6 @@
-"""Conjugate gradients with a multigrid cycle on a correction of u, with the signs on the contact part in view."""
+"""Conjugate gradients with a multigrid cycle on a correction of u, with the signs on the contact
+part in view.
+"""
 
 import numpy as np
 
@@ -14,7 +16,8 @@ _UNSURE = 1.0  # of the next correction: what may be left after it
 
 
 class Descent:
-    """Conjugate gradients on a correction d of a level's u, with the signs on its contact part in view.
+    """Conjugate gradients on a correction d of a level's u, with the signs on its contact part in
+    view.
 
     Attributes
     ----------
@@ -35,7 +38,9 @@ class Descent:
         self.acting = search.acting()
 
     def run(self):
-        """Iterate until the error is small enough, stalls, or signs are wrong beyond it; which ones, shape (nc,)."""
+        """Iterate until the error is small enough, stalls, or signs are wrong beyond it; which
+        ones, shape (nc,).
+        """
         level, cycle, r = self.search.levels[0], self.search.cycle, self.r
         p, rz, best, waited, first = None, np.inf, np.inf, 0, None
         while True:
@@ -48,7 +53,11 @@ class Descent:
             waited = 0 if error < 0.5 * best else waited + 1
             best = min(error, best)
             patience = _STALLED if best < 0.1 * first else _PATIENCE
-            if self._ends(level) or waited > patience or (not self.tolerance and error <= DIGITS * first):
+            if (
+                self._ends(level)
+                or waited > patience
+                or (not self.tolerance and error <= DIGITS * first)
+            ):
                 return certain
             before, rz = rz, r @ z
             if not rz > 0.0:
@@ -67,19 +76,28 @@ class Descent:
             r -= np.multiply(Ap, step, out=Ap)
 
     def _ends(self, level):
-        """Whether the error is small enough, and if so what it is by the least eigenvalue that has been met."""
+        """Whether the error is small enough, and if so what it is by the least eigenvalue that has
+        been met.
+        """
         goal = (self.tolerance or (BELOW if level.robust else EPS)) * self.size
         if self.error > goal:
             return False
         estimate, self.search.least = self.error, self._least()
-        self.error, self.force_error = self.error / self.search.least, self.force_error / self.search.least
+        self.error, self.force_error = (
+            self.error / self.search.least,
+            self.force_error / self.search.least,
+        )
         small = self.error <= goal or self.tolerance > 0 or estimate <= 0.1 * goal
-        forces = not level.robust or self.force_error <= EPS * self.acting or estimate <= 1e-3 * goal
+        forces = (
+            not level.robust or self.force_error <= EPS * self.acting or estimate <= 1e-3 * goal
+        )
         self.converged = small and forces
         return self.converged
 
     def _wrong(self, z):
-        """Signs that are wrong beyond rounding; and those that the next correction, even twice, leaves so."""
+        """Signs that are wrong beyond rounding; and those that the next correction, even twice,
+        leaves so.
+        """
         search, c = self.search, self.search.obstacle.contact
         gap, force = self.gap + self.d[c], -self.r[c]
         slack = _UNSURE * search.rule.slack
@@ -91,11 +109,16 @@ class Descent:
         low = ROUNDING * EPS * self.size
         rounding = ROUNDING * EPS * self.acting
         wrong = np.where(search.active, force < -rounding, gap < -low)
-        pulled, sunk = force + search.rows @ z < -rounding - force_error, gap + z[c] < -low - gap_error
+        pulled, sunk = (
+            force + search.rows @ z < -rounding - force_error,
+            gap + z[c] < -low - gap_error,
+        )
         return wrong, wrong & np.where(search.active, pulled, sunk)
 
     def _least(self):
-        """Least eigenvalue of the preconditioned matrix that conjugate gradients have met, at most 1 (Lanczos)."""
+        """Least eigenvalue of the preconditioned matrix that conjugate gradients have met, at most
+        1 (Lanczos).
+        """
         steps, bends = np.array(self.steps), np.array(self.bends)
         if not steps.size:
             return self.search.least
@@ -114,7 +137,9 @@ def _greatest_nearby(rows, values):
 
 
 def solved(level, cycle, load, tolerance):
-    """An approximate solution of A x = load by conjugate gradients, until a step changes it by less than a share."""
+    """An approximate solution of A x = load by conjugate gradients, until a step changes it by less
+    than a share.
+    """
     x, r = np.zeros_like(load), load.copy()
     p, rz = None, 1.0
     for _ in range(_PATIENCE):

@@ -1,8 +1,10 @@
-"""The direct route: one sparse factorisation, the inequality on the condensed contact matrix. The others' oracle.
+"""The direct route: one sparse factorisation, the inequality on the condensed contact matrix. The
+others' oracle.
 
-The factors are a guess at A's inverse, no more: on stretched cells and across jumps of the coefficient they lose
-digits. So every solution is refined with residuals by differences until the corrections stop falling, its errors are
-estimated, and the contact set is held against the forces and gaps that come out of it.
+The factors are a guess at A's inverse, no more: on stretched cells and across jumps of the
+coefficient they lose digits. So every solution is refined with residuals by differences until the
+corrections stop falling, its errors are estimated, and the contact set is held against the forces
+and gaps that come out of it.
 """
 
 import numpy as np
@@ -12,7 +14,17 @@ from signorini.fem.residual import BELOW, EPS, residual, residual_and_fluxes, ro
 from signorini.memory import DIRECT, check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
-from signorini.solvers.found import NO_DIGIT, SAFETY, Errors, Released, better, bound_of, proved, to_close, wrong_signs
+from signorini.solvers.found import (
+    NO_DIGIT,
+    SAFETY,
+    Errors,
+    Released,
+    better,
+    bound_of,
+    proved,
+    to_close,
+    wrong_signs,
+)
 from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.solution import largest
 
@@ -21,7 +33,10 @@ _STRICT = 10  # steps in which signs count that may be rounding
 _CORRECTIONS, _STEPS = 10, 200
 _SMALL = 1e-6  # a correction of which share of u needs no other
 _CERTAIN = 1e-11  # a correction by good factors of which share of u is one to the last digits
-_STALLED, _PATIENCE = 0.7, 12  # of the least correction before, and how many corrections to wait for less
+_STALLED, _PATIENCE = (
+    0.7,
+    12,
+)  # of the least correction before, and how many corrections to wait for less
 _STUCK = 20.0  # what may be left of corrections that stall, over the last
 _SAMPLES = 2  # random signs of the rounding errors whose effect is looked at
 
@@ -33,7 +48,9 @@ def solve_direct(problem, guess=None):
     -------
     Found
     """
-    check_memory(problem.mesh.number_of_triangles, DIRECT[problem.element], "a mesh for solver.method direct")
+    check_memory(
+        problem.mesh.number_of_triangles, DIRECT[problem.element], "a mesh for solver.method direct"
+    )
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values
     if not problem.free.size:
@@ -46,7 +63,9 @@ def solve_direct(problem, guess=None):
     for step in range(_MAX_STEPS):
         u, gap, force, left = body.refined(u, active)
         errors = body.errors(u, active, left)
-        wrong = wrong_signs(active, gap, force, errors, np.ptp(u) if step < _STRICT and first is None else None)
+        wrong = wrong_signs(
+            active, gap, force, errors, np.ptp(u) if step < _STRICT and first is None else None
+        )
         if not wrong.any():
             if not errors.u <= NO_DIGIT * np.ptp(u):
                 raise SolverError(why_singular(problem))
@@ -69,7 +88,9 @@ class _Body:
 
     def __init__(self, problem):
         self.problem, self.condensed = problem, Condensed(problem)
-        alone = not problem.fixed.size and problem.contact.size == 1  # S is zero then, rounded to either sign
+        alone = (
+            not problem.fixed.size and problem.contact.size == 1
+        )  # S is zero then, rounded to either sign
         if np.any(self.condensed.S.diagonal() <= 0.0) and not alone:
             raise SolverError(why_singular(problem))
         self.operator = DenseContact(self.condensed.S) if problem.contact.size else None
@@ -101,7 +122,9 @@ class _Body:
         u = u + self.displacement(residual(problem.A, problem.b, u, self.sums), active)[0]
         for _ in range(_CORRECTIONS):
             correction, force, left = self._correction(u, active)
-            gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
+            gap = (u[problem.contact] - problem.lower) + correction[
+                problem.contact
+            ]  # before u rounds it off
             u = u + correction
             size = np.ptp(u)
             if largest(correction) <= _SMALL * size and left[0] <= _CERTAIN * size:
@@ -111,7 +134,8 @@ class _Body:
     def _correction(self, u, active):
         """What is missing of u; the contact forces then; and what may still be missing of both.
 
-        The residual of u is taken once. All that follows is as small as the correction, and so is its rounding.
+        The residual of u is taken once. All that follows is as small as the correction, and so is
+        its rounding.
         """
         r, size = residual(self.problem.A, self.problem.b, u, self.sums), float(np.ptp(u))
         z, force = self.displacement(r, active)
@@ -120,7 +144,9 @@ class _Body:
         return self._by_gradients(r, z, force, size, active)
 
     def _by_gradients(self, r, z, force, size, active):
-        """The same by conjugate gradients, where factors keep few digits; `z` and `force` are what they make of r."""
+        """The same by conjugate gradients, where factors keep few digits; `z` and `force` are what
+        they make of r.
+        """
         found, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, largest(z), np.inf
         last, best, waited = step, step, 0
@@ -142,16 +168,20 @@ class _Body:
             change, force = largest(forced - force), forced
             waited = waited + 1 if step > _STALLED * best else 0
             best = min(best, step)
-            if waited > _PATIENCE or (step**2 <= BELOW * size * last and change <= EPS * largest(force)):
+            if waited > _PATIENCE or (
+                step**2 <= BELOW * size * last and change <= EPS * largest(force)
+            ):
                 break
         rate = _STUCK if waited else 2.0 * step / last
         return found, force, (rate * step, rate * change)
 
     def displacement(self, load, active, reduced=None):
-        """What a load does with the contact set held: the change of u, and the forces it leaves on contact dofs.
+        """What a load does with the contact set held: the change of u, and the forces it leaves on
+        contact dofs.
 
-        `load` is of shape (ndof,), or (ndof, k) for k of them at once; so are what they do, and the forces (nc, ...).
-        `reduced` is what it is condensed to the contact dofs, where that is known.
+        `load` is of shape (ndof,), or (ndof, k) for k of them at once; so are what they do, and the
+        forces (nc, ...). `reduced` is what it is condensed to the contact dofs, where that is
+        known.
         """
         reduced = self.condensed.reduce(load) if reduced is None else reduced
         w = np.zeros_like(reduced)
@@ -162,7 +192,9 @@ class _Body:
         return self.condensed.extend(load, w, reduced), force
 
     def released(self, active, unsure):
-        """What rounding does with unsure dofs of a contact set let go; None where there are none, or nothing holds."""
+        """What rounding does with unsure dofs of a contact set let go; None where there are none,
+        or nothing holds.
+        """
         held = active & ~unsure
         if np.array_equal(held, active) or not (self.problem.fixed.size or held.any()):
             return None
@@ -173,8 +205,9 @@ class _Body:
     def errors(self, u, active, left):
         """Estimated errors of a refined solution.
 
-        The rounding of every row, pushing one way, is a load whose response bounds all others where inv(A) >= 0; the
-        same with random signs shows what rounding does where entries of inv(A) differ in sign.
+        The rounding of every row, pushing one way, is a load whose response bounds all others where
+        inv(A) >= 0; the same with random signs shows what rounding does where entries of inv(A)
+        differ in sign.
         """
         problem = self.problem
         _, fluxes = residual_and_fluxes(problem.A, problem.b, u, sums=self.sums)
@@ -192,4 +225,6 @@ class _Body:
         stiffness = self.condensed.S.diagonal()
         bounds = gaps + left[0], forces + left[1]
         loads = np.abs(reduced[:, 0])
-        return Errors(largest_u + left[0], largest_force + left[1], *bounds, loads, stiffness, acting)
+        return Errors(
+            largest_u + left[0], largest_force + left[1], *bounds, loads, stiffness, acting
+        )

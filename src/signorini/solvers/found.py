@@ -9,7 +9,10 @@ from signorini.solvers.solution import SOLVED
 
 _TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
 LEAST_FORCE = 1e-6  # of the forces acting: a contact force smaller than this is not what others are measured by
-SAFETY, _PESSIMISM = 3.0, 1e3  # of a bound over the sample at the same dof, at least; over the largest, at most
+SAFETY, _PESSIMISM = (
+    3.0,
+    1e3,
+)  # of a bound over the sample at the same dof, at least; over the largest, at most
 ROUNDING = 64.0  # roundings of the largest gap and force, below which a sign may be one
 NO_DIGIT = 0.1  # error of u, relative to its variation, from which there is no solution to return
 
@@ -26,7 +29,8 @@ class Found(NamedTuple):
     iterations : int
         Active-set steps.
     accuracy : float
-        Estimated largest error of u, relative to its variation, but for its last rounding; dimensionless.
+        Estimated largest error of u, relative to its variation, but for its last rounding;
+        dimensionless.
     multiplier : ndarray, shape (nc,)
         Contact forces, of whatever sign rounding left them.
     multiplier_accuracy : float
@@ -54,11 +58,13 @@ class Errors(NamedTuple):
     gaps, forces : ndarray, shape (nc,)
         A bound of the error of each gap and of each contact force.
     loads : ndarray, shape (nc,)
-        The rounding of all rows, condensed to each contact dof: what could press there instead of a gap.
+        The rounding of all rows, condensed to each contact dof: what could press there instead of a
+        gap.
     stiffness : ndarray, shape (nc,)
         About the force on each contact dof that moves it by one.
     acting : float
-        The largest force that acts on a contact dof at all: the sum of the sizes of its load and its fluxes.
+        The largest force that acts on a contact dof at all: the sum of the sizes of its load and
+        its fluxes.
     """
 
     u: float
@@ -71,12 +77,14 @@ class Errors(NamedTuple):
 
 
 def bound_of(pushed, samples):
-    """Bounds of the errors of gaps or forces, shape (nc,), from what rounding does that pushes one way or at random.
+    """Bounds of the errors of gaps or forces, shape (nc,), from what rounding does that pushes one
+    way or at random.
 
     Parameters
     ----------
     pushed : ndarray, shape (nc,)
-        The effect of all rounding pushing one way: a bound where inv(A) >= 0, and far too much on stretched CR cells.
+        The effect of all rounding pushing one way: a bound where inv(A) >= 0, and far too much on
+        stretched CR cells.
     samples : ndarray, shape (k, nc)
         Effects with random signs.
     """
@@ -91,7 +99,8 @@ def size_of(u):
 
 
 def wrong_signs(active, gap, force, errors, variation=None):
-    """Contact dofs whose gap, or force where they bind, is negative beyond its own error; shape (nc,) of bool.
+    """Contact dofs whose gap, or force where they bind, is negative beyond its own error; shape
+    (nc,) of bool.
 
     With a `variation` of u, beyond the rounding of the number itself, if that is less.
     """
@@ -105,8 +114,9 @@ def wrong_signs(active, gap, force, errors, variation=None):
 def to_close(u, active, gap, errors):
     """Contact dofs that are to bind although their gap may be positive; shape (nc,) of bool.
 
-    Above the obstacle by round-off alone they count as binding, so that no route decides them. Where rounding leaves
-    too little of u with the undecided ones apart, it may leave more with them held.
+    Above the obstacle by round-off alone they count as binding, so that no route decides them.
+    Where rounding leaves too little of u with the undecided ones apart, it may leave more with them
+    held.
     """
     variation = size_of(u)
     apart = ~active & (gap <= errors.gaps)
@@ -116,7 +126,9 @@ def to_close(u, active, gap, errors):
 
 
 class Released(NamedTuple):
-    """What rounding does at most where dofs that may not bind are let go: to u, to each gap and to each force (nc,)."""
+    """What rounding does at most where dofs that may not bind are let go: to u, to each gap and to
+    each force (nc,).
+    """
 
     u: float
     gaps: np.ndarray
@@ -126,7 +138,8 @@ class Released(NamedTuple):
 def proved(u, active, iterations, gap, force, errors, released=None):
     """The answer of a route none of whose signs are wrong.
 
-    An undecided dof may be on the other side, and move by what its force could do, or press by what its gap could.
+    An undecided dof may be on the other side, and move by what its force could do, or press by what
+    its gap could.
 
     Parameters
     ----------
@@ -136,12 +149,16 @@ def proved(u, active, iterations, gap, force, errors, released=None):
         Of the contact dofs.
     errors : Errors
     released : Released, optional
-        With the undecided dofs let go that bind, if there are any and a route knows it. What it moves may be on the
-        other side, too.
+        With the undecided dofs let go that bind, if there are any and a route knows it. What it
+        moves may be on the other side, too.
     """
     released = released or Released(0.0, 0.0, 0.0)
-    undecided = np.where(active, force <= errors.forces + released.forces, gap <= errors.gaps + released.gaps)
-    if undecided.any():  # then any sign no surer than the least sure error of all may depend on theirs
+    undecided = np.where(
+        active, force <= errors.forces + released.forces, gap <= errors.gaps + released.gaps
+    )
+    if (
+        undecided.any()
+    ):  # then any sign no surer than the least sure error of all may depend on theirs
         undecided |= np.where(active, force <= SAFETY * errors.force, gap <= SAFETY * errors.u)
     binding, apart = active & undecided, ~active & undecided
     stiffness = np.broadcast_to(errors.stiffness, force.shape)
@@ -152,11 +169,15 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     accuracy = _share(errors.u + moved, variation)
     largest = _largest(force, active & ~undecided)
     largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting
-    return Found(u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided)
+    return Found(
+        u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided
+    )
 
 
 def better(first, second):
-    """Of two answers the second, which binds where the first is undecided, unless it knows u and forces less well."""
+    """Of two answers the second, which binds where the first is undecided, unless it knows u and
+    forces less well.
+    """
     if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
         return second
     return min((second, first), key=lambda found: max(found.accuracy, found.multiplier_accuracy))

@@ -1,10 +1,12 @@
-"""The fourier route: uniform rectangles with equal conditions on the two sides beside the contact side.
+"""The fourier route: uniform rectangles with equal conditions on the two sides beside the contact
+side.
 
-Along the contact side, cosines (or sines) diagonalise the stiffness matrix; away from it, each of them leaves a
-tridiagonal matrix. One elimination sweep towards the contact side leaves S w - q = lambda there, S diagonal in
-the same basis; the inequality is solved on that line alone, and one sweep back gives u. CR first eliminates its
-edges parallel to the axes, which leaves the same matrix on the diagonal edges. No matrix is assembled. After
-Buzbee, Golub and Nielson, On direct methods for solving Poisson's equations, SIAM J. Numer. Anal. 7 (1970).
+Along the contact side, cosines (or sines) diagonalise the stiffness matrix; away from it, each of
+them leaves a tridiagonal matrix. One elimination sweep towards the contact side leaves S w - q =
+lambda there, S diagonal in the same basis; the inequality is solved on that line alone, and one
+sweep back gives u. CR first eliminates its edges parallel to the axes, which leaves the same matrix
+on the diagonal edges. No matrix is assembled. After Buzbee, Golub and Nielson, On direct methods
+for solving Poisson's equations, SIAM J. Numer. Anal. 7 (1970).
 """
 
 import numpy as np
@@ -29,7 +31,11 @@ def obstruction(problem):
     """Say why the route does not apply to a problem, or None where it does."""
     grid = problem.grid
     if grid is None:
-        return "the mesh is not a uniform grid" if problem.coefficient is None else "the coefficient is not 1"
+        return (
+            "the mesh is not a uniform grid"
+            if problem.coefficient is None
+            else "the coefficient is not 1"
+        )
     if len(grid.sides("contact")) > 1:
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:
@@ -49,7 +55,8 @@ def solve_fourier(problem, guess=None):
     Returns
     -------
     Found
-        No matrix entry is rounded and no pivot cancels, so that the last correction is as large as any error left.
+        No matrix entry is rounded and no pivot cancels, so that the last correction is as large as
+        any error left.
 
     Raises
     ------
@@ -74,16 +81,22 @@ def solve_fourier(problem, guess=None):
             first = proved(u.copy(), line.active, line.iterations, gap, line.force, errors)
             line.active = line.active | near
         u[problem.contact[line.active]] = problem.lower[line.active]
-    raise SolverError(f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best")
+    raise SolverError(
+        f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best"
+    )
 
 
 def _refined(problem, route, line, u):
-    """Correct u in place until corrections stop falling, mostly once; the gaps, and the errors of all."""
+    """Correct u in place until corrections stop falling, mostly once; the gaps, and the errors of
+    all.
+    """
     last = np.inf
     for _ in range(_CORRECTIONS):
         before = line.force
         correction = _displacement(problem, route, _residual(problem, u), line.hold)
-        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]  # before u rounds it off
+        gap = (u[problem.contact] - problem.lower) + correction[
+            problem.contact
+        ]  # before u rounds it off
         u += correction
         size, change = largest(correction), largest(line.force - before)
         if size <= _CERTAIN * size_of(u) or size > 0.5 * last:
@@ -143,7 +156,9 @@ class _Line:
 
 
 def _displacement(problem, route, load, settle):
-    """What a load does: u, zero on the fixed dofs, whose gap on the contact line is ``settle(operator, q)``."""
+    """What a load does: u, zero on the fixed dofs, whose gap on the contact line is
+    ``settle(operator, q)``.
+    """
     rows = route.reduce(load)
     if route.basis.weighted:
         rows /= route.basis.mass
@@ -151,7 +166,9 @@ def _displacement(problem, route, load, settle):
     factors, symbol = route.eliminate(route.basis.forward(rows, out=rows))
     gap = np.zeros(0)
     if problem.contact.size:
-        gap = settle(contact_operator(route.basis, symbol), route.basis.mass * route.basis.backward(rows[0]))
+        gap = settle(
+            contact_operator(route.basis, symbol), route.basis.mass * route.basis.backward(rows[0])
+        )
         rows[0] = route.basis.forward(gap)
     else:
         rows[0] /= symbol
@@ -165,7 +182,9 @@ def _displacement(problem, route, load, settle):
 
 
 def _shifted_load(problem):
-    """The load less what the Dirichlet values and the obstacle take of it; the problem's own where that is nothing."""
+    """The load less what the Dirichlet values and the obstacle take of it; the problem's own where
+    that is nothing.
+    """
     if not (np.any(problem.fixed_values) or np.any(problem.lower)):
         return problem.b
     u = np.zeros_like(problem.b)

@@ -1,9 +1,11 @@
-"""Levels for multigrid: the meshes that a mesh was refined from, and below them coarsening by the matrix alone.
+"""Levels for multigrid: the meshes that a mesh was refined from, and below them coarsening by the
+matrix alone.
 
-CR stands on conforming P1 on the same mesh, which it contains; P1 stands on P1 on the mesh it was refined from, whose
-matrix equals the Galerkin product. Below the coarsest mesh, where there is none, and where cells are stretched, levels
-follow the large entries of the matrix (Ruge & Stüben 1987, by PyAMG). After Brandt, Math. Comp. 31 (1977), and Braess &
-Verfürth, SIAM J. Numer. Anal. 27 (1990), for the nonconforming element.
+CR stands on conforming P1 on the same mesh, which it contains; P1 stands on P1 on the mesh it was
+refined from, whose matrix equals the Galerkin product. Below the coarsest mesh, where there is
+none, and where cells are stretched, levels follow the large entries of the matrix (Ruge & Stüben
+1987, by PyAMG). After Brandt, Math. Comp. 31 (1977), and Braess & Verfürth, SIAM J. Numer. Anal. 27
+(1990), for the nonconforming element.
 """
 
 from dataclasses import dataclass, replace
@@ -34,8 +36,8 @@ class Level:
     P : scipy.sparse.csr_array, shape (n, m), optional
         Prolongation; None on the coarsest level.
     robust : bool
-        Whether levels below are to follow A with the held unknowns eliminated (`Eliminated`), since held ones and stiff
-        or stretched neighbours cannot share a coarse unknown.
+        Whether levels below are to follow A with the held unknowns eliminated (`Eliminated`), since
+        held ones and stiff or stretched neighbours cannot share a coarse unknown.
     """
 
     A: object
@@ -101,7 +103,9 @@ def build_hierarchy(problem):
 
 
 def jumps(coefficient):
-    """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot follow it."""
+    """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot
+    follow it.
+    """
     return coefficient is not None and bool(coefficient.max() > _JUMP * coefficient.min())
 
 
@@ -111,7 +115,9 @@ def is_regular(mesh):
 
 
 def is_nested(mesh):
-    """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell is stretched."""
+    """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell
+    is stretched.
+    """
     return mesh.coarser() is not None and is_regular(mesh)
 
 
@@ -119,7 +125,9 @@ def causes(problem):
     """What in a problem costs digits, for a message: cell shapes, the coefficient; and the remedy."""
     found = []
     if problem.mesh.stretch > STRETCHED:
-        found.append(f"there are cells {problem.mesh.stretch:.2g} times as long as high; stretch cells less")
+        found.append(
+            f"there are cells {problem.mesh.stretch:.2g} times as long as high; stretch cells less"
+        )
     if jumps(problem.coefficient):
         contrast = problem.coefficient.max() / problem.coefficient.min()
         found.append(f"the coefficient varies by {contrast:.1g}; let it vary less")
@@ -137,11 +145,15 @@ def _algebraic(A, robust=False):
     if any(abs(level.P).max() > _WILD for level in found[:-1]):
         found = smoothed_aggregation_solver(csr_matrix(A), max_coarse=_SMALL).levels
     coarsest = Level(csr_array(found[-1].A), robust=robust)
-    return [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]] + [coarsest]
+    return [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]] + [
+        coarsest
+    ]
 
 
 def _means(pairs, count):
-    """The matrix of the means of pairs of `count` values; a pair of equals stands for the one value."""
+    """The matrix of the means of pairs of `count` values; a pair of equals stands for the one
+    value.
+    """
     from scipy.sparse import csr_array
 
     first, second = pairs
@@ -166,7 +178,8 @@ def _check_nested(mesh, coarser, parents):
 
 
 class Cycle:
-    """A V(1,1) cycle with some unknowns held: a symmetric positive definite preconditioner of A on the others.
+    """A V(1,1) cycle with some unknowns held: a symmetric positive definite preconditioner of A on
+    the others.
 
     It sweeps forwards before and backwards after the coarse correction, by Gauss and Seidel.
 
@@ -174,8 +187,8 @@ class Cycle:
     ----------
     levels : list of Level
     held : ndarray of bool, shape (n,)
-        Unknowns of the first level that do not move. A coarse unknown does not move if at least half of one that is
-        held depends on it.
+        Unknowns of the first level that do not move. A coarse unknown does not move if at least
+        half of one that is held depends on it.
     """
 
     def __init__(self, levels, held):
@@ -205,7 +218,9 @@ class Cycle:
         return x
 
     def sweep(self, k, x, r, step):
-        """Gauss and Seidel's sweep for A x = r on level k in place, forwards (step 1) or backwards (-1)."""
+        """Gauss and Seidel's sweep for A x = r on level k in place, forwards (step 1) or backwards
+        (-1).
+        """
         from pyamg.amg_core import gauss_seidel_indexed
 
         A, rows = self.levels[k].A, self.free[k]

@@ -1,4 +1,6 @@
-"""Rows of unknowns parallel to the contact side of a uniform grid: vertices for P1, diagonal edges for CR."""
+"""Rows of unknowns parallel to the contact side of a uniform grid: vertices for P1, diagonal edges
+for CR.
+"""
 
 from dataclasses import dataclass
 
@@ -13,7 +15,9 @@ _BESIDE = {"bottom": ("left", "right"), "left": ("bottom", "top")}
 
 @dataclass(frozen=True)
 class Strip:
-    """A grid turned so that its contact side lies at row 0; `along` runs on that side, `away` from it."""
+    """A grid turned so that its contact side lies at row 0; `along` runs on that side, `away` from
+    it.
+    """
 
     side: str
     kinds: dict
@@ -26,7 +30,9 @@ class Strip:
     k_away: float
 
     def turn(self, rows):
-        """Turn an array of the grid (row 0 at the bottom) so that row 0 lies on the contact side; undone by `back`."""
+        """Turn an array of the grid (row 0 at the bottom) so that row 0 lies on the contact side;
+        undone by `back`.
+        """
         rows = rows[:, ::-1].T if self.side == "right" else rows.T if self.side == "left" else rows
         return rows[::-1] if self.side == "top" else rows
 
@@ -47,22 +53,25 @@ def strip_of(grid):
             along, away = (grid.ny, grid.nx) if vertical else (grid.nx, grid.ny)
             kx, ky = hy / hx, hx / hy
             k = (ky, kx) if vertical else (kx, ky)
-            return Strip(side, labels, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k)
+            return Strip(
+                side, labels, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k
+            )
     return None
 
 
 class Rows:
-    """Rows of unknowns, row 0 on or next to the contact side, coupled to the rows above and below alone.
+    """Rows of unknowns, row 0 on or next to the contact side, coupled to the rows above and below
+    alone.
 
-    Row j couples with row j - 1 by ``-k_away coupling[j]``; its diagonal is ``mass[j] k_along eigenvalue``, and k_away
-    times its couplings to both neighbours and `held`, a whole number.
+    Row j couples with row j - 1 by ``-k_away coupling[j]``; its diagonal is ``mass[j] k_along
+    eigenvalue``, and k_away times its couplings to both neighbours and `held`, a whole number.
     """
 
     def eliminate(self, rows):
         """Eliminate from the far side, in place: rows[j] then holds what back substitution needs.
 
-        A pivot is its coupling to the next row and an excess, which is summed from positive terms alone: nothing
-        cancels, however stretched the cells.
+        A pivot is its coupling to the next row and an excess, which is summed from positive terms
+        alone: nothing cancels, however stretched the cells.
 
         Returns
         -------
@@ -85,7 +94,9 @@ class Rows:
 
 
 def _held(diagonal, coupling):
-    """What is left of each row's diagonal without the couplings to its neighbours, in units of k_away."""
+    """What is left of each row's diagonal without the couplings to its neighbours, in units of
+    k_away.
+    """
     held = diagonal.copy()
     held[1:] -= coupling[1:]
     held[:-1] -= coupling[1:]
@@ -98,9 +109,13 @@ class Vertices(Rows):
     def __init__(self, grid, strip):
         self.grid, self.strip = grid, strip
         fixed_sides = strip.beside == "dirichlet"
-        self.basis = (transforms.vertex_sines if fixed_sides else transforms.vertex_cosines)(strip.along)
+        self.basis = (transforms.vertex_sines if fixed_sides else transforms.vertex_cosines)(
+            strip.along
+        )
         self.columns = slice(1, -1) if fixed_sides else slice(None)
-        self.rows = slice(int(strip.near == "dirichlet"), strip.away + int(strip.far != "dirichlet"))
+        self.rows = slice(
+            int(strip.near == "dirichlet"), strip.away + int(strip.far != "dirichlet")
+        )
         self.mass = np.ones(strip.away + 1)
         self.mass[[0, -1]] = 0.5
         self.mass = self.mass[self.rows]
@@ -111,7 +126,9 @@ class Vertices(Rows):
         return self.grid.ny + 1, self.grid.nx + 1
 
     def reduce(self, load):
-        return np.array(self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C")
+        return np.array(
+            self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C"
+        )
 
     def extend(self, rows, load):
         u = np.zeros(self._shape())
@@ -122,14 +139,16 @@ class Vertices(Rows):
 class Edges(Rows):
     """CR: a row of diagonal edges at a time, and the edges of the contact side as row 0.
 
-    An edge parallel to an axis couples with the diagonal edges of its one or two cells alone; it is eliminated
-    exactly: half its load to each of two, all of it to one.
+    An edge parallel to an axis couples with the diagonal edges of its one or two cells alone; it is
+    eliminated exactly: half its load to each of two, all of it to one.
     """
 
     def __init__(self, grid, strip):
         self.grid, self.strip = grid, strip
         fixed_sides = strip.beside == "dirichlet"
-        self.basis = (transforms.midpoint_sines if fixed_sides else transforms.midpoint_cosines)(strip.along)
+        self.basis = (transforms.midpoint_sines if fixed_sides else transforms.midpoint_cosines)(
+            strip.along
+        )
         self.line = int(strip.near != "dirichlet")
         end = {"dirichlet": 2.0, "contact": 2.0, "neumann": 0.0}
         below, above = np.ones(strip.away), np.ones(strip.away)
@@ -142,17 +161,30 @@ class Edges(Rows):
         self.held = _held(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
 
     def _shares(self, sides):
-        """What an edge hands to each of its cells, by rows (or columns) of edges that two sides end; none if held."""
-        held = [self.strip.kinds[side] == "dirichlet" or (side == self.strip.side and self.line) for side in sides]
+        """What an edge hands to each of its cells, by rows (or columns) of edges that two sides
+        end; none if held.
+        """
+        held = [
+            self.strip.kinds[side] == "dirichlet" or (side == self.strip.side and self.line)
+            for side in sides
+        ]
         shares = np.full((self.grid.nx if sides[0] == "left" else self.grid.ny) + 1, 0.5)
         shares[[0, -1]] = np.where(held, 0.0, 1.0)
         return shares
 
     def _blocks(self, load):
-        """By blocks of rows of cells: the first and the one after the last, the load on their edges, their shares."""
+        """By blocks of rows of cells: the first and the one after the last, the load on their
+        edges, their shares.
+        """
         along_y, along_x = self._shares(("bottom", "top"))[:, None], self._shares(("left", "right"))
         for first, last in self.grid.row_blocks():
-            yield first, last, *self.grid.split_edges(load, first, last), along_y[first : last + 1], along_x
+            yield (
+                first,
+                last,
+                *self.grid.split_edges(load, first, last),
+                along_y[first : last + 1],
+                along_x,
+            )
 
     def reduce(self, load):
         rows = np.empty((self.strip.away + self.line, self.strip.along))

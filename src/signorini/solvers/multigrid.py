@@ -1,13 +1,15 @@
-"""The multigrid route: conjugate gradients with a V-cycle, on every level from the coarsest to the finest.
+"""The multigrid route: conjugate gradients with a V-cycle, on every level from the coarsest to the
+finest.
 
-Each level starts from the solution and the contact set of the one before (nested iteration). While conjugate
-gradients run, signs on the contact part are looked at in every step: what violates them by more than the error that
-is left nearby changes sides, and the iteration goes on with the new set held. So a set is never solved for more
-accurately than is needed to see that it is wrong. Exchanges are safeguarded as on the other routes
-(`contact.Exchange`).
+Each level starts from the solution and the contact set of the one before (nested iteration). While
+conjugate gradients run, signs on the contact part are looked at in every step: what violates them
+by more than the error that is left nearby changes sides, and the iteration goes on with the new set
+held. So a set is never solved for more accurately than is needed to see that it is wrong. Exchanges
+are safeguarded as on the other routes (`contact.Exchange`).
 
-On the finest level conjugate gradients run on corrections, each time from a residual by differences, so that no entry
-of A limits them; then the errors of gaps and forces are bounded, and their signs are held against the bounds.
+On the finest level conjugate gradients run on corrections, each time from a residual by
+differences, so that no entry of A limits them; then the errors of gaps and forces are bounded, and
+their signs are held against the bounds.
 """
 
 from dataclasses import dataclass
@@ -38,16 +40,22 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     Parameters
     ----------
     tolerance : float
-        Estimated error, relative to the variation of u, at which to end without a proof; 0 for the last bit and a
-        proof.
+        Estimated error, relative to the variation of u, at which to end without a proof; 0 for the
+        last bit and a proof.
 
     Returns
     -------
     Found
     """
-    check_memory(problem.mesh.number_of_triangles, MULTIGRID[problem.element], "a mesh for solver.method multigrid")
+    check_memory(
+        problem.mesh.number_of_triangles,
+        MULTIGRID[problem.element],
+        "a mesh for solver.method multigrid",
+    )
     levels = build_hierarchy(problem)
-    obstacles = [Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)]
+    obstacles = [
+        Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)
+    ]
     for level in levels[:-1]:
         obstacles.append(obstacles[-1].restricted(level))
     u = np.zeros(levels[-1].A.shape[0])
@@ -56,12 +64,16 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
         for k in range(len(levels) - 1, 0, -1):
             search = Search(levels[k:], obstacles[k], u, active)
             search.run(0.1 / u.size)
-            u, active = _prolong(levels[k - 1], obstacles[k], obstacles[k - 1], search.u, search.active)
+            u, active = _prolong(
+                levels[k - 1], obstacles[k], obstacles[k - 1], search.u, search.active
+            )
     search = Search(levels, obstacles[0], u, active if guess is None else guess)
     if tolerance:
         search.run(tolerance)
         nothing = np.zeros(problem.contact.size)
-        return search.found(Errors(tolerance * np.ptp(search.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0))
+        return search.found(
+            Errors(tolerance * np.ptp(search.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0)
+        )
     return _proved(problem, search)
 
 
@@ -72,7 +84,9 @@ def _proved(problem, search):
         search.run(0.0)
         errors = search.errors()
         if not errors.u <= NO_DIGIT * np.ptp(search.u):
-            raise SolverError(f"domain: no digit of the solution survives rounding: {causes(problem)}")
+            raise SolverError(
+                f"domain: no digit of the solution survives rounding: {causes(problem)}"
+            )
         wrong = wrong_signs(search.active, search.gap, search.force, errors)
         if wrong.any():
             search.exchange(wrong)
@@ -85,7 +99,9 @@ def _proved(problem, search):
 
 @dataclass(frozen=True, eq=False)
 class Obstacle:
-    """What a level's unknowns obey besides A: load, obstacle and Dirichlet values; names as in `Problem`."""
+    """What a level's unknowns obey besides A: load, obstacle and Dirichlet values; names as in
+    `Problem`.
+    """
 
     b: np.ndarray
     contact: np.ndarray
@@ -94,14 +110,18 @@ class Obstacle:
     fixed_values: np.ndarray
 
     def held(self, active):
-        """Which unknowns do not move, shape (n,): the fixed ones, and those in the contact set `active`."""
+        """Which unknowns do not move, shape (n,): the fixed ones, and those in the contact set
+        `active`.
+        """
         held = np.zeros(self.b.size, dtype=bool)
         held[self.fixed] = True
         held[self.contact[active]] = True
         return held
 
     def restricted(self, level):
-        """The same on the next coarser level: means of the obstacle and of the Dirichlet values nearby."""
+        """The same on the next coarser level: means of the obstacle and of the Dirichlet values
+        nearby.
+        """
         fixed, values = _restricted(level, self.fixed, self.fixed_values)
         contact, lower = _restricted(level, self.contact, self.lower)
         apart = ~np.isin(contact, fixed)
@@ -117,7 +137,9 @@ def _restricted(level, marked, values):
 
 
 def _prolong(level, coarse, fine, u, active):
-    """A coarse solution as a start for the next level, its contact set where all that an unknown is made of binds."""
+    """A coarse solution as a start for the next level, its contact set where all that an unknown is
+    made of binds.
+    """
     marks = np.zeros(u.size)
     marks[coarse.contact[active]] = 1.0
     return level.P @ u, (level.P @ marks)[fine.contact] > 0.75

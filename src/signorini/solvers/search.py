@@ -1,4 +1,6 @@
-"""The search for the solution on one level: u and its contact set as they stand, and the errors of both."""
+"""The search for the solution on one level: u and its contact set as they stand, and the errors of
+both.
+"""
 
 import logging
 
@@ -15,7 +17,9 @@ from signorini.work import count
 
 _MAX_STEPS, _DESCENTS = 300, 30
 _ROUGH = 1e-12  # error, of what u varies, to which plain products do
-_STAYS = 1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
+_STAYS = (
+    1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
+)
 _SHRUNK = 8.0  # times what u varies now: if it varied by more, its error was measured by too much
 _ESTIMATE = 0.1  # to which the effect of rounding is worked out, of its size
 _RESPONSE = 1e-3  # the same where levels follow the matrix, whose entries may cancel
@@ -25,7 +29,9 @@ _log = logging.getLogger(__name__)
 
 
 class Search:
-    """The search for a level's solution: u and contact set as they stand, and what the signs are held against."""
+    """The search for a level's solution: u and contact set as they stand, and what the signs are
+    held against.
+    """
 
     def __init__(self, levels, obstacle, u, active):
         self.levels, self.obstacle, self.u, self.active = levels, obstacle, u, active
@@ -36,7 +42,9 @@ class Search:
         u[obstacle.fixed] = obstacle.fixed_values
 
     def acting(self):
-        """The largest force that acts on a contact dof: the sum of the sizes of its load and its fluxes."""
+        """The largest force that acts on a contact dof: the sum of the sizes of its load and its
+        fluxes.
+        """
         load = self.obstacle.b[self.obstacle.contact]
         fluxes = residual_and_fluxes(self.rows, load, self.u, self.obstacle.contact, _NONE)[1]
         return np.max(fluxes + np.abs(load), initial=0.0)
@@ -60,7 +68,9 @@ class Search:
         return Released(largest(x), SAFETY * np.abs(x[c]), SAFETY * forces)
 
     def run(self, tolerance):
-        """Improve u and contact set until the error is `tolerance` of what u varies, or round-off; no sign is wrong."""
+        """Improve u and contact set until the error is `tolerance` of what u varies, or round-off;
+        no sign is wrong.
+        """
         while True:
             wrong = self._settle(tolerance)
             if not wrong.any():
@@ -73,11 +83,15 @@ class Search:
             raise SolverError(
                 f"multigrid: no contact set in {_MAX_STEPS} steps, {self.rule.fewest} signs wrong at best"
             )
-        depth = np.where(self.active, self.force / self.levels[0].diagonal[self.obstacle.contact], self.gap)
+        depth = np.where(
+            self.active, self.force / self.levels[0].diagonal[self.obstacle.contact], self.gap
+        )
         self.active[self.rule.choose(self.active, wrong, depth)] ^= True
 
     def _settle(self, tolerance):
-        """Iterate with the contact set held, until converged or until signs are wrong beyond the error; which ones."""
+        """Iterate with the contact set held, until converged or until signs are wrong beyond the
+        error; which ones.
+        """
         count(steps=1)
         self.steps += 1
         u, active, obstacle = self.u, self.active, self.obstacle
@@ -90,7 +104,9 @@ class Search:
         for _ in range(_DESCENTS):
             descent = self._descent(tolerance, exact=before < np.inf)
             wrong = descent.run()
-            self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[obstacle.contact]  # before u rounds it off
+            self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[
+                obstacle.contact
+            ]  # before u rounds it off
             u += descent.d
             share = descent.error / (np.ptp(u) or 1.0)
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
@@ -111,11 +127,15 @@ class Search:
         return wrong
 
     def _descent(self, tolerance, exact):
-        """The next one; its residual is taken by differences where plain products would no longer do."""
+        """The next one; its residual is taken by differences where plain products would no longer
+        do.
+        """
         b, level = self.obstacle.b, self.levels[0]
         if tolerance or not (exact or level.robust):
             count(products=1)
-            rough = max(_ROUGH, 8.0 * EPS * np.sqrt(self.u.size))  # what rounding of the products leaves of u
+            rough = max(
+                _ROUGH, 8.0 * EPS * np.sqrt(self.u.size)
+            )  # what rounding of the products leaves of u
             return Descent(self, b - self.A @ self.u, tolerance or rough)
         r, self.fluxes = residual_and_fluxes(self.A, b, self.u, sums=level.sums)
         return Descent(self, r, 0.0)
@@ -123,7 +143,8 @@ class Search:
     def errors(self):
         """Estimated errors.
 
-        As on the direct route, rounding of every row is a load, pushing one way or with random signs.
+        As on the direct route, rounding of every row is a load, pushing one way or with random
+        signs.
         """
         c, b = self.obstacle.contact, self.obstacle.b
         rounding = rounding_of(b, self.fluxes)
@@ -142,16 +163,25 @@ class Search:
         return Errors(error, force, gaps, forces, together, stiffness, self.acting())
 
     def _responses(self, load, sample):
-        """The gaps and forces that a load makes, each (nc,); the greatest move and force that another one makes."""
+        """The gaps and forces that a load makes, each (nc,); the greatest move and force that
+        another one makes.
+        """
         c, found = self.obstacle.contact, []
         for rounding in (load, sample):
             x = solved(self.levels[0], self.cycle, np.where(self.held, 0.0, rounding), _RESPONSE)
             found += [x, np.where(self.active, self.rows @ x - rounding[c], 0.0)]
         pushed, pressed, moved, forced = found
-        return bound_of(pushed[c], moved[None, c]), bound_of(pressed, forced[None]), largest(moved), largest(forced)
+        return (
+            bound_of(pushed[c], moved[None, c]),
+            bound_of(pressed, forced[None]),
+            largest(moved),
+            largest(forced),
+        )
 
     def _coarse_responses(self, load, sample):
-        """The same, worked out on the next coarser level and smoothed: enough on cells that are not stretched."""
+        """The same, worked out on the next coarser level and smoothed: enough on cells that are not
+        stretched.
+        """
         c, level = self.obstacle.contact, self.levels[0]
         held = level.coarse_mask(self.held)
         cycle = preconditioner(self.levels[1:], held)
@@ -161,4 +191,9 @@ class Search:
         pressed = self.sizes @ np.abs(pushed) + load[c]
         moved = largest(cycle(np.where(held, 0.0, level.R @ sample))) / self.least
         share = min(moved / (largest(pushed) or 1.0), 1.0)
-        return np.abs(pushed[c]), pressed, moved, share * float(np.max(pressed, where=self.active, initial=0.0))
+        return (
+            np.abs(pushed[c]),
+            pressed,
+            moved,
+            share * float(np.max(pressed, where=self.active, initial=0.0)),
+        )

@@ -13,7 +13,8 @@ from signorini.solvers.check import check_data, check_solvable, check_symmetric,
 from signorini.solvers.found import NO_DIGIT, Found, size_of
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
-# Route name -> module and function; imported when used, because importing SciPy costs more than a coarse solve.
+# Route name -> module and function; imported when used, because importing SciPy costs more than a
+# coarse solve.
 METHODS = {
     "fourier": ("signorini.solvers.fourier", "solve_fourier"),
     "direct": ("signorini.solvers.direct", "solve_direct"),
@@ -21,10 +22,14 @@ METHODS = {
 }
 
 
-_MANY = 1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
+_MANY = (
+    1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
+)
 _FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
 _ASKED = "asked for"
-_NEARLY_CONSTANT = 2.0**-6  # Dirichlet values and obstacle that vary by less of their size are shifted
+_NEARLY_CONSTANT = (
+    2.0**-6
+)  # Dirichlet values and obstacle that vary by less of their size are shifted
 
 
 def solve(problem, method="auto", guess=None):
@@ -41,15 +46,15 @@ def solve(problem, method="auto", guess=None):
     Returns
     -------
     Solution
-        Its status follows from the KKT residual, recomputed from the problem, and from the estimated errors of u and of
-        the contact forces; see docs/solvers.md.
+        Its status follows from the KKT residual, recomputed from the problem, and from the
+        estimated errors of u and of the contact forces; see docs/solvers.md.
 
     Raises
     ------
     SolverError
-        If the data or the solution are not finite, the problem has no or no unique solution, the method is unknown or
-        does not apply or cannot prove its contact set, no digit of u survives rounding, or the KKT residual of the
-        result exceeds 1e-6.
+        If the data or the solution are not finite, the problem has no or no unique solution, the
+        method is unknown or does not apply or cannot prove its contact set, no digit of u survives
+        rounding, or the KKT residual of the result exceeds 1e-6.
 
     Examples
     --------
@@ -86,7 +91,9 @@ def solve(problem, method="auto", guess=None):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
         u = _with_constant(problem, deviation, np.ldexp(constant, exponent), active)
     if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
-        raise SolverError("data: the solution exceeds the largest number, 1.8e308; scale the data down")
+        raise SolverError(
+            "data: the solution exceeds the largest number, 1.8e308; scale the data down"
+        )
     return Solution(
         u=u,
         multiplier=multiplier,
@@ -108,7 +115,8 @@ def solve(problem, method="auto", guess=None):
 def _counted(problem, method, reason, guess):
     """The problem counted from a constant, that constant, and what is found for it.
 
-    Where data do not show that all of the body stays near a constant, far from its obstacle, a first solution does.
+    Where data do not show that all of the body stays near a constant, far from its obstacle, a
+    first solution does.
     """
     rest = _at_rest(problem)
     if rest is not None:
@@ -145,7 +153,9 @@ def _at_rest(problem):
 
 
 def _find(problem, method, reason, guess):
-    """What a route finds; where multigrid, not asked for, finds no proof, what the direct route finds."""
+    """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
+    finds.
+    """
     try:
         return _by_route(problem, method, guess), method, reason
     except SolverError as error:
@@ -171,14 +181,22 @@ def _causes(problem):
 
 def _choose(problem, method):
     if method not in ("auto", *METHODS):
-        raise SolverError(f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}")
+        raise SolverError(
+            f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}"
+        )
     if method != "auto":
         if why_not := _obstruction(method, problem):
-            raise SolverError(f"solver.method: {method} does not apply, {why_not}; use auto or direct")
+            raise SolverError(
+                f"solver.method: {method} does not apply, {why_not}; use auto or direct"
+            )
         return method, _ASKED
     why_not = _obstruction("fourier", problem)
     if not why_not:
-        kind = "equal conditions beside the contact side" if problem.contact.size else "no contact part: plain Poisson"
+        kind = (
+            "equal conditions beside the contact side"
+            if problem.contact.size
+            else "no contact part: plain Poisson"
+        )
         return "fourier", f"uniform grid, {kind}"
     if problem.b.size <= _FEW:
         return "direct", why_not
@@ -191,7 +209,9 @@ def _choose(problem, method):
     if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
         return "direct", f"{why_not}, and not refined or of stretched cells"
     if obstacle := _obstruction("multigrid", problem):
-        raise SolverError(f"domain: too large for a factorisation, and {obstacle}; stretch cells less, or use fewer")
+        raise SolverError(
+            f"domain: too large for a factorisation, and {obstacle}; stretch cells less, or use fewer"
+        )
     return "multigrid", f"{why_not}, and too large for a factorisation"
 
 
@@ -204,9 +224,13 @@ def _obstruction(method, problem):
 def _accuracy(found, constant):
     """That of u itself, whose last bit is relative to the constant, too.
 
-    It is relative to the variation of u; or to its size, where u is a constant but for that last bit.
+    It is relative to the variation of u; or to its size, where u is a constant but for that last
+    bit.
     """
-    variation, size = size_of(found.u), max(abs(np.min(found.u) + constant), abs(np.max(found.u) + constant))
+    variation, size = (
+        size_of(found.u),
+        max(abs(np.min(found.u) + constant), abs(np.max(found.u) + constant)),
+    )
     last_bit = float(EPS * size) if found.accuracy or np.ptp(found.u) else 0.0
     relative_to = variation if variation > 4.0 * last_bit else size
     return float((found.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
@@ -222,9 +246,11 @@ def _with_constant(problem, deviation, constant, active):
 
 
 def _constant(problem, near):
-    """A constant that u, its Dirichlet values and the obstacle may be counted from; zero where that gains no digits.
+    """A constant that u, its Dirichlet values and the obstacle may be counted from; zero where that
+    gains no digits.
 
-    Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding would.
+    Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding
+    would.
     """
     values = np.concatenate(near)
     low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
@@ -236,21 +262,30 @@ def _constant(problem, near):
 def _shifted(problem, constant):
     if not constant:
         return problem
-    return _with(problem, lower=problem.lower - constant, fixed_values=problem.fixed_values - constant)
+    return _with(
+        problem, lower=problem.lower - constant, fixed_values=problem.fixed_values - constant
+    )
 
 
 def _exponent(problem):
-    """The power of two that brings the data to order one; exact, so results scale with the data bit for bit."""
+    """The power of two that brings the data to order one; exact, so results scale with the data bit
+    for bit.
+    """
     size = max(largest(values) for values in (problem.b, problem.lower, problem.fixed_values))
     if 0.0 < size < np.finfo(float).tiny:
-        warnings.warn(f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3)
+        warnings.warn(
+            f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3
+        )
     return int(np.frexp(size)[1]) if size else 0
 
 
 def _scaled(problem, exponent):
     if not exponent:
         return problem
-    return _with(problem, **{k: np.ldexp(getattr(problem, k), exponent) for k in ("b", "lower", "fixed_values")})
+    return _with(
+        problem,
+        **{k: np.ldexp(getattr(problem, k), exponent) for k in ("b", "lower", "fixed_values")},
+    )
 
 
 def _with(problem, **data):

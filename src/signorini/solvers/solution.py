@@ -30,11 +30,13 @@ class Solution:
     accuracy : float
         Estimated largest error of u, relative to its variation max u - min u; dimensionless.
     multiplier_accuracy : float
-        Estimated largest error of the contact forces, relative to the largest of them; where none is certain, to the
-        largest force that acts on a contact dof at all, and never to less than a millionth of that. Dimensionless.
+        Estimated largest error of the contact forces, relative to the largest of them; where none
+        is certain, to the largest force that acts on a contact dof at all, and never to less than a
+        millionth of that. Dimensionless.
     undecided : ndarray of bool, shape (nc,)
-        Contact dofs whose gap, or whose contact force where they bind, is below its own error: in exact arithmetic
-        they may be on the other side. Everywhere else `active` is the contact set in exact arithmetic.
+        Contact dofs whose gap, or whose contact force where they bind, is below its own error: in
+        exact arithmetic they may be on the other side. Everywhere else `active` is the contact set
+        in exact arithmetic.
     status : {"solved", "inaccurate"}
         Never better than the residual and the two accuracies.
     iterations : int
@@ -44,8 +46,8 @@ class Solution:
     reason : str
         Why that route.
     constant : float
-        What u was counted from, unit of u: not zero where Dirichlet values and obstacle together vary by less than a
-        64th of their size.
+        What u was counted from, unit of u: not zero where Dirichlet values and obstacle together
+        vary by less than a 64th of their size.
     deviation : ndarray, shape (ndof,)
         u - constant, with the digits that u has no room for beside a large constant.
     problem : Problem
@@ -69,7 +71,8 @@ class Solution:
 
     @property
     def flux(self):
-        """Contact force per length, k du/dnu, at each contact dof, shape (nc,), unit of k u per length.
+        """Contact force per length, k du/dnu, at each contact dof, shape (nc,), unit of k u per
+        length.
 
         The `multiplier` over `Problem.contact_lengths`; it belongs to `Problem.contact_points`.
         """
@@ -82,12 +85,14 @@ def kkt_residual(problem, u):
     With r = A u - b, the multiplier lambda = r on the contact dofs, and
 
     - the length scale G, how much u, the Dirichlet values and the greatest obstacle vary,
-    - the scale F = |b| + diag(A) G of the other free dofs, each its own, since rows of A differ by many powers of ten,
-    - the force scale F_c, the largest sum of the sizes of a contact dof's load and fluxes a_ij (u_j - u_i),
+    - the scale F = |b| + diag(A) G of the other free dofs, each its own, since rows of A differ by
+    many powers of ten,
+    - the force scale F_c, the largest sum of the sizes of a contact dof's load and fluxes a_ij (u_j
+    - u_i),
 
-    it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G, min((u - lower)+ / G,
-    lambda+ / F_c), and the deviation of the Dirichlet values over G. A force on a contact dof counts only beyond what
-    rounding u to doubles adds to it, 2 eps (|A| |u|).
+    it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G, min((u
+    - lower)+ / G, lambda+ / F_c), and the deviation of the Dirichlet values over G. A force on a
+    contact dof counts only beyond what rounding u to doubles adds to it, 2 eps (|A| |u|).
 
     Parameters
     ----------
@@ -128,7 +133,9 @@ def _variation(problem, u):
 
 def _imbalance(problem, u, low, length_scale):
     """Largest |A u - b| over |b| + diag(A) G among the free dofs off the contact part."""
-    far = problem.grid is None and abs(low) > length_scale  # then a product with A would round u, not its variation
+    far = (
+        problem.grid is None and abs(low) > length_scale
+    )  # then a product with A would round u, not its variation
     force = problem.apply(u - low if far else u)
     force -= problem.b
     force[problem.contact] = force[problem.fixed] = 0.0
@@ -137,7 +144,9 @@ def _imbalance(problem, u, low, length_scale):
     for first in range(0, force.size, _AT_ONCE):
         part = slice(first, first + _AT_ONCE)
         scale[part] += np.abs(problem.b[part])
-        force[part] = np.divide(force[part], scale[part], out=np.zeros(force[part].size), where=scale[part] > 0.0)
+        force[part] = np.divide(
+            force[part], scale[part], out=np.zeros(force[part].size), where=scale[part] > 0.0
+        )
     return largest(force)
 
 
@@ -162,7 +171,9 @@ def _diagonal(problem):
 
 
 def status_of(residual, *accuracies):
-    """Name a residual and accuracies: "solved" up to 1e-10, "failed" for a residual above 1e-6, else "inaccurate"."""
+    """Name a residual and accuracies: "solved" up to 1e-10, "failed" for a residual above 1e-6,
+    else "inaccurate".
+    """
     if max((residual, *accuracies)) <= SOLVED:
         return "solved"
     return "inaccurate" if residual <= INACCURATE else "failed"

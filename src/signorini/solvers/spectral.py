@@ -1,4 +1,6 @@
-"""The condensed contact matrix of a uniform grid: diagonal in a trigonometric basis, never formed where it is large."""
+"""The condensed contact matrix of a uniform grid: diagonal in a trigonometric basis, never formed
+where it is large.
+"""
 
 import numpy as np
 
@@ -13,7 +15,9 @@ _EPS = np.finfo(float).eps
 
 
 def contact_operator(basis, symbol):
-    """The operator S = mass * backward(symbol * forward(.)), dense for few dofs, by fast transforms for many."""
+    """The operator S = mass * backward(symbol * forward(.)), dense for few dofs, by fast transforms
+    for many.
+    """
     spectral = SpectralContact(basis, symbol)
     if spectral.size > _DENSE_UP_TO:
         return spectral
@@ -24,8 +28,9 @@ def contact_operator(basis, symbol):
 class SpectralContact:
     """A contact matrix applied in O(n log n) and solved on its free dofs by conjugate gradients.
 
-    It has the interface of `DenseContact`. The preconditioner is the restriction of the inverse of S, which is as
-    cheap as S itself and leaves a few steps at every n; each solve starts from the last answer.
+    It has the interface of `DenseContact`. The preconditioner is the restriction of the inverse of
+    S, which is as cheap as S itself and leaves a few steps at every n; each solve starts from the
+    last answer.
 
     Parameters
     ----------
@@ -37,13 +42,17 @@ class SpectralContact:
     def __init__(self, basis, symbol):
         self.basis = basis
         self.symbol = symbol
-        self.inverse = 1.0 / np.where(symbol > _EPS * symbol.max(), symbol, symbol.max() / symbol.size)
+        self.inverse = 1.0 / np.where(
+            symbol > _EPS * symbol.max(), symbol, symbol.max() / symbol.size
+        )
         self.size = symbol.size
         self.band = self.size * _EPS
         self._last = np.zeros(self.size)
 
     def diagonal(self):
-        """The mean eigenvalue: the size of the diagonal, which varies little along the line; shape (n,)."""
+        """The mean eigenvalue: the size of the diagonal, which varies little along the line; shape
+        (n,).
+        """
         return np.full(self.size, self.symbol.mean())
 
     def apply(self, w):
@@ -87,9 +96,13 @@ class SpectralContact:
             rz, before = r @ z, rz
             p = z + (rz / before) * p
         if best > 1e6 * floor:
-            raise SolverError(f"contact line: conjugate gradients stopped at residual {best:.2e}, above {floor:.2e}")
+            raise SolverError(
+                f"contact line: conjugate gradients stopped at residual {best:.2e}, above {floor:.2e}"
+            )
         self._last = best_x
         return best_x[free]
 
     def _precondition(self, free, r):
-        return np.where(free, self.basis.backward(self.inverse * self.basis.forward(r / self.basis.mass)), 0.0)
+        return np.where(
+            free, self.basis.backward(self.inverse * self.basis.forward(r / self.basis.mass)), 0.0
+        )

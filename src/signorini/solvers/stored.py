@@ -11,8 +11,8 @@ from signorini.storage import read_npz, write_npz
 class StoredSolution:
     """A solution as `read_solution` returns it; see `solvers.Solution` for what the parts mean.
 
-    ``dofs`` counts the free degrees of freedom; ``contact`` and ``lower`` are those of the `Problem`; ``h`` has the
-    unit of length.
+    ``dofs`` counts the free degrees of freedom; ``contact`` and ``lower`` are those of the
+    `Problem`; ``h`` has the unit of length.
     """
 
     element: str
@@ -66,4 +66,6 @@ def read_solution(path):
         If the file is missing, truncated, altered, or not a solution.
     """
     arrays = read_npz(path, kind="solution")
-    return StoredSolution(**{key: value if value.ndim else value.item() for key, value in arrays.items()})
+    return StoredSolution(
+        **{key: value if value.ndim else value.item() for key, value in arrays.items()}
+    )

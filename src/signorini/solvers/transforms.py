@@ -1,8 +1,9 @@
 """Cosine and sine transforms that diagonalise second differences along the rows of an array.
 
-Each basis is a pair (forward, backward) with backward(forward(x)) = x, by NumPy's real FFT of the even or odd
-extension: importing scipy.fft would cost more than every coarse solve. It pays for large arrays alone, where it is
-twice as fast, and more on several cores: with the same bits on any number of them, or of OMP_NUM_THREADS.
+Each basis is a pair (forward, backward) with backward(forward(x)) = x, by NumPy's real FFT of the
+even or odd extension: importing scipy.fft would cost more than every coarse solve. It pays for
+large arrays alone, where it is twice as fast, and more on several cores: with the same bits on any
+number of them, or of OMP_NUM_THREADS.
 """
 
 import os
@@ -21,7 +22,8 @@ class Basis:
     Parameters
     ----------
     forward, backward : callable
-        Map arrays (..., size) of values to coefficients and back; into `out` where given, which may be the array.
+        Map arrays (..., size) of values to coefficients and back; into `out` where given, which may
+        be the array.
     eigenvalues : ndarray, shape (size,)
         Of the second difference -x[i-1] + 2 x[i] - x[i+1] with the basis's own end conditions.
     mass : ndarray, shape (size,)
@@ -50,7 +52,9 @@ def vertex_cosines(n):
     def backward(c):
         return np.fft.irfft(c, 2 * n)[:, : n + 1]
 
-    return Basis(*_by_rows(forward, backward, "dct", 1), _second_difference(np.arange(n + 1), n), mass)
+    return Basis(
+        *_by_rows(forward, backward, "dct", 1), _second_difference(np.arange(n + 1), n), mass
+    )
 
 
 def vertex_sines(n):
@@ -64,7 +68,11 @@ def vertex_sines(n):
         zero = np.zeros((c.shape[0], 1))
         return np.fft.irfft(-1j * np.concatenate([zero, c, zero], axis=1), 2 * n)[:, 1:n]
 
-    return Basis(*_by_rows(forward, backward, "dst", 1), _second_difference(np.arange(1, n), n), np.ones(n - 1))
+    return Basis(
+        *_by_rows(forward, backward, "dst", 1),
+        _second_difference(np.arange(1, n), n),
+        np.ones(n - 1),
+    )
 
 
 def midpoint_cosines(n):
@@ -102,7 +110,9 @@ def _second_difference(k, n):
 
 
 def _by_rows(forward, backward, name, kind):
-    """Let transforms of (m, size) arrays take (size,) too, and long arrays a block of rows at a time."""
+    """Let transforms of (m, size) arrays take (size,) too, and long arrays a block of rows at a
+    time.
+    """
 
     def blockwise(transform, scipy_name):
         def transformed(x, out=None):

@@ -1,1 +1,4 @@
-"""Studies: what is measured about the solvers beyond a scene. They know the library; the library knows no study."""
+"""Studies: what is measured about the solvers beyond a scene.
+
+They know the library; the library knows no study.
+"""

@@ -20,14 +20,17 @@ def describe(packages=OURS):
     Returns
     -------
     dict
-        ``processor``, ``cores``, ``memory`` (GB), ``system``, ``python``, ``blas``, ``threads`` (of a measured
-        process), ``load`` (average of the last minute), ``date``, and ``versions`` of the packages that are installed.
+        ``processor``, ``cores``, ``memory`` (GB), ``system``, ``python``, ``blas``, ``threads`` (of
+        a measured process), ``load`` (average of the last minute), ``date``, and ``versions`` of
+        the packages that are installed.
     """
     import numpy as np
 
     blas = np.show_config(mode="dicts")["Build Dependencies"]["blas"]
     return {
-        "processor": _of_file("/proc/cpuinfo", "model name") or platform.processor() or platform.machine(),
+        "processor": _of_file("/proc/cpuinfo", "model name")
+        or platform.processor()
+        or platform.machine(),
         "cores": os.cpu_count(),
         "memory": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "system": f"{platform.system()} {platform.release()}",

@@ -37,7 +37,9 @@ class Table:
 
 def to_latex(title, blocks):
     """Return a LaTeX fragment that starts with a section; needs booktabs, caption and graphicx."""
-    return "\n".join([rf"\section{{{_tex(title)}}}", *(_LATEX[type(block)](block) for block in blocks)])
+    return "\n".join(
+        [rf"\section{{{_tex(title)}}}", *(_LATEX[type(block)](block) for block in blocks)]
+    )
 
 
 def to_markdown(title, blocks):
@@ -82,7 +84,9 @@ def _latex_table(block):
     lines = ["\\toprule", head, "\\midrule", *body, "\\bottomrule"]
     return (
         f"\\begin{{table}}[!htb]\n\\centering\\footnotesize\\setlength{{\\tabcolsep}}{{4pt}}\n\\caption{{{_tex(block.caption)}}}\n\\label{{{block.name}}}\n"
-        f"\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n" + "\n".join(lines) + "\n\\end{tabular}\n\\end{table}\n"
+        f"\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n"
+        + "\n".join(lines)
+        + "\n\\end{tabular}\n\\end{table}\n"
     )
 
 

@@ -49,7 +49,8 @@ def _power(found):
 
 
 def tex_table(table, label, more=""):
-    """A floating table, the first column aligned left, all others right; `more`, in LaTeX, ends the caption.
+    """A floating table, the first column aligned left, all others right; `more`, in LaTeX, ends the
+    caption.
 
     A table that is wider than the page is scaled down to it.
     """
@@ -75,7 +76,10 @@ def tex_table(table, label, more=""):
 def _tex_groups(groups):
     if not groups:
         return
-    yield " & ".join(rf"\multicolumn{{{span}}}{{c}}{{{tex(title)}}}" for title, span in groups) + r" \\"
+    yield (
+        " & ".join(rf"\multicolumn{{{span}}}{{c}}{{{tex(title)}}}" for title, span in groups)
+        + r" \\"
+    )
     first = 1
     for title, span in groups:
         if title:

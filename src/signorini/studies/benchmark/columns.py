@@ -19,7 +19,17 @@ machine's load average over the last minute when the point began. Counts as in `
 
 _DUEL = ("scene", "element", "rival", "ours", "status", "note")
 RIVAL_NUMBERS = (
-    *("n", "dofs", "claimed", "residual", "difference", "iterations", "seconds", "seconds_min", "seconds_max"),
+    *(
+        "n",
+        "dofs",
+        "claimed",
+        "residual",
+        "difference",
+        "iterations",
+        "seconds",
+        "seconds_min",
+        "seconds_max",
+    ),
     *("auto", "ours_seconds", "ours_min", "ours_max", "ratio", "ratio_min", "ratio_max"),
 )
 RIVAL = (*_DUEL, *RIVAL_NUMBERS)

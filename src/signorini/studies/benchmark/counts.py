@@ -1,4 +1,6 @@
-"""What a solve does, in counts and bytes: a guard against slower code that no busy machine can fool."""
+"""What a solve does, in counts and bytes: a guard against slower code that no busy machine can
+fool.
+"""
 
 import tracemalloc
 from dataclasses import asdict
@@ -16,7 +18,9 @@ _UNKNOWNS = 10_000
 
 
 def counted_level(scene, element):
-    """The first level of a scene, by doubling its coarsest, that has at least 10,000 free unknowns, discretised."""
+    """The first level of a scene, by doubling its coarsest, that has at least 10,000 free unknowns,
+    discretised.
+    """
     n = scene.levels[0]
     while True:
         problem = discretize(scene, element, n)
@@ -26,10 +30,11 @@ def counted_level(scene, element):
 
 
 def count_scene(scene, element):
-    """A row per route that applies: ``method``, ``n``, ``unknowns``, the counts, and the peak bytes per unknown.
+    """A row per route that applies: ``method``, ``n``, ``unknowns``, the counts, and the peak bytes
+    per unknown.
 
-    The bytes are those that Python's allocators gave out during the solve, assembly included where a route needs the
-    matrix; what SuperLU allocates by itself is not among them.
+    The bytes are those that Python's allocators gave out during the solve, assembly included where
+    a route needs the matrix; what SuperLU allocates by itself is not among them.
     """
     n, problem = counted_level(scene, element)
     coarse = discretize(scene, element, scene.levels[0])
@@ -40,7 +45,13 @@ def count_scene(scene, element):
         except SolverError:
             continue
         problem.__dict__.pop("A", None)
-        what = {"scene": scene.name, "element": element, "method": method, "n": n, "unknowns": problem.free.size}
+        what = {
+            "scene": scene.name,
+            "element": element,
+            "method": method,
+            "n": n,
+            "unknowns": problem.free.size,
+        }
         rows.append(what | _count(problem, method))
     return rows
 
@@ -62,13 +73,17 @@ def changes(recorded, found):
     Returns
     -------
     grown, shrunk : list of str
-        Counts that are more than a tenth larger, or smaller, with both values; routes that are new or gone are among
-        the grown.
+        Counts that are more than a tenth larger, or smaller, with both values; routes that are new
+        or gone are among the grown.
     """
     before = {_key(row): row for row in recorded}
     after = {_key(row): row for row in found}
     grown = [f"{' '.join(key)}: not in the record" for key in after if key not in before]
-    grown += [f"{' '.join(key)}: recorded, but the route no longer applies" for key in before if key not in after]
+    grown += [
+        f"{' '.join(key)}: recorded, but the route no longer applies"
+        for key in before
+        if key not in after
+    ]
     shrunk = []
     for key in before.keys() & after.keys():
         for name in GUARDED:

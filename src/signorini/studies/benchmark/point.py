@@ -1,4 +1,6 @@
-"""One measured point: a scene, an element, a level and a route, from the scene's statement to its solution."""
+"""One measured point: a scene, an element, a level and a route, from the scene's statement to its
+solution.
+"""
 
 import gc
 import os
@@ -17,12 +19,14 @@ from signorini.mesh.domain import make_domain
 from signorini.solvers import solve
 from signorini.work import counting
 
-# What a level costs that has four times the unknowns of the one before: somewhat more than four times as much.
+# What a level costs that has four times the unknowns of the one before: somewhat more than four
+# times as much.
 _GROWTH = {"seconds": 5.0, "memory": 4.5}
 
 
 def measure(statement, element, n, method, repeats, warm_up):
-    """Measure one point in this process, which should be fresh: its peak memory is the process's own.
+    """Measure one point in this process, which should be fresh: its peak memory is the process's
+    own.
 
     Parameters
     ----------
@@ -41,7 +45,8 @@ def measure(statement, element, n, method, repeats, warm_up):
     row : dict
         Those of `benchmark_columns.POINT` that follow from the measurement.
     u : ndarray or None
-        The solution; None where the route does not apply, or fails: the row's status and note then say so.
+        The solution; None where the route does not apply, or fails: the row's status and note then
+        say so.
     """
     load = os.getloadavg()[0]
     try:
@@ -59,7 +64,13 @@ def measure(statement, element, n, method, repeats, warm_up):
     except SolverError as error:
         return {"status": "skipped", "note": str(error), "load": load}, None
     peak = memory_peak()
-    row = {"status": "measured", "dofs": problem.free.size, "repeats": len(runs), "peak": peak, "load": load}
+    row = {
+        "status": "measured",
+        "dofs": problem.free.size,
+        "repeats": len(runs),
+        "peak": peak,
+        "load": load,
+    }
     row |= spread(runs) | {"memory": peak - before} | asdict(work)
     return row | {"iterations": solution.iterations, "residual": solution.residual}, solution.u
 
@@ -84,7 +95,9 @@ def _run(statement, element, n, method):
 
 
 def _timed(problem):
-    """The same problem, and a list of the seconds that assembling its matrix took, whenever a route asks for it."""
+    """The same problem, and a list of the seconds that assembling its matrix took, whenever a route
+    asks for it.
+    """
     seconds = []
 
     class Timed(Problem):
@@ -99,16 +112,23 @@ def _timed(problem):
 
 
 def spread(runs):
-    """Median, least and largest of each time over the runs (dicts of seconds): `total`, `total_min`, `total_max`."""
+    """Median, least and largest of each time over the runs (dicts of seconds): `total`,
+    `total_min`, `total_max`.
+    """
     row = {}
     for name in runs[0]:
         values = [run[name] for run in runs]
-        row |= {name: statistics.median(values), f"{name}_min": min(values), f"{name}_max": max(values)}
+        row |= {
+            name: statistics.median(values),
+            f"{name}_min": min(values),
+            f"{name}_max": max(values),
+        }
     return row
 
 
 def why_not(before, limits):
-    """Say why a level is left out, from the row of the one before it (None for the first), or None if it is not.
+    """Say why a level is left out, from the row of the one before it (None for the first), or None
+    if it is not.
 
     `limits` are ``seconds`` of one run and ``megabytes``.
     """

@@ -57,20 +57,28 @@ class Report:
         parts = [
             "\\section{Run time against error}\\label{sec:benchmark}",
             *map(tex, words),
-            tex_figure(f"benchmark_{first}", tex(f"{FIGURES[first]} {self.machine}"), f"benchmark-{first}"),
+            tex_figure(
+                f"benchmark_{first}", tex(f"{FIGURES[first]} {self.machine}"), f"benchmark-{first}"
+            ),
             tex_table(self.reach_table(), "benchmark-reach", _AS_ABOVE),
-            *(tex_figure(f"benchmark_{name}", tex(FIGURES[name]) + _AS_ABOVE, f"benchmark-{name}") for name in others),
+            *(
+                tex_figure(f"benchmark_{name}", tex(FIGURES[name]) + _AS_ABOVE, f"benchmark-{name}")
+                for name in others
+            ),
             tex_table(self.duel_table(), "benchmark-rivals", _AS_ABOVE),
         ]
         return "\n\n".join(parts) + "\\clearpage\n"
 
     def markdown(self):
         """The page; the figures benchmark_*.png and the tables *.csv lie beside it."""
-        figures = {name: f"![{words}](benchmark_{name}.png)\n\n{words}" for name, words in FIGURES.items()}
+        figures = {
+            name: f"![{words}](benchmark_{name}.png)\n\n{words}" for name, words in FIGURES.items()
+        }
         parts = [
             "# Run time against error",
             f"`snakemake --cores 2 benchmark`; {self.machine}",
-            self.method() + " All numbers: [benchmark.csv](benchmark.csv), [rivals.csv](rivals.csv).",
+            self.method()
+            + " All numbers: [benchmark.csv](benchmark.csv), [rivals.csv](rivals.csv).",
             figures["error"],
             "## Which element gets there first",
             markdown_table(self.reach_table()),
@@ -106,10 +114,16 @@ class Report:
 
     def truth(self):
         """What the errors are held against."""
-        references = {name: part["reference"] for name, part in self.asked["scenes"].items() if "reference" in part}
+        references = {
+            name: part["reference"]
+            for name, part in self.asked["scenes"].items()
+            if "reference" in part
+        }
         told = ", ".join(f"{name} by P1 with h = 1/{n}" for name, n in references.items())
         return "Errors are against the exact solution" + (
-            f", or against a reference at least four times finer than any level shown ({told})." if told else "."
+            f", or against a reference at least four times finer than any level shown ({told})."
+            if told
+            else "."
         )
 
     def bending_words(self):
@@ -136,10 +150,16 @@ class Report:
             for scene in self.scenes:
                 for target in TARGETS:
                     found = best.get((scene, norm, target), {})
-                    cells = [cell for element in self.elements() for cell in _cost_cells(found.get(element))]
+                    cells = [
+                        cell
+                        for element in self.elements()
+                        for cell in _cost_cells(found.get(element))
+                    ]
                     verdict = better(found)
                     winners = [_winner(verdict.get(cost)) for cost in ("total", "dofs", "memory")]
-                    rows.append([scene if target == TARGETS[0] else "", f"{target:g}", *cells, *winners])
+                    rows.append(
+                        [scene if target == TARGETS[0] else "", f"{target:g}", *cells, *winners]
+                    )
         each = ("time", "", "unknowns", "MB") * len(self.elements())
         groups = (("", 2), *((name, 4) for name in self.elements()), ("more accurate per", 3))
         caption = (
@@ -153,15 +173,22 @@ class Report:
     def growth_table(self):
         """Exponents of time and memory, and time per unknown on the finest level."""
         exponents = {
-            (row["scene"], row["element"], row["method"], row["quantity"]): row for row in self.summary["growth"]
+            (row["scene"], row["element"], row["method"], row["quantity"]): row
+            for row in self.summary["growth"]
         }
         rows = []
         for key, found in self.series.items():
             fits = [exponents.get((*key, quantity)) for quantity in ("total", "memory")]
             finest = found[-1]
             fitted = [f"{fit['exponent']:.2f}" if fit else "--" for fit in fits]
-            costs = [seconds(finest["total"]), megabytes(finest["memory"]), f"{finest['memory'] / finest['dofs']:.0f}"]
-            rows.append([" ".join(key), f"1/{finest['n']:g}", thousands(finest["dofs"]), *costs, *fitted])
+            costs = [
+                seconds(finest["total"]),
+                megabytes(finest["memory"]),
+                f"{finest['memory'] / finest['dofs']:.0f}",
+            ]
+            rows.append(
+                [" ".join(key), f"1/{finest['n']:g}", thousands(finest["dofs"]), *costs, *fitted]
+            )
         header = (
             "series",
             "finest h",
@@ -180,7 +207,11 @@ class Report:
             [" ".join(key), f"1/{found[-1]['n']:g}", *(f"{found[-1][c]:g}" for c in COUNTS)]
             for key, found in self.series.items()
         ]
-        return Table(("series", "finest h", *COUNTS), rows, "Counts of work on the finest level of each series.")
+        return Table(
+            ("series", "finest h", *COUNTS),
+            rows,
+            "Counts of work on the finest level of each series.",
+        )
 
     def skipped_table(self):
         """The first level left out of each series, and why."""
@@ -211,7 +242,9 @@ class Report:
         levels = ", ".join(f"1/{n}" for n in asked["levels"])
         wins, even, losses = (sum(row[key] for row in duels) for key in ("wins", "even", "losses"))
         absent = dict.fromkeys(
-            f"{self.title(r['rival'])} ({r['note']})" for r in self.rivals if r["status"] == "absent"
+            f"{self.title(r['rival'])} ({r['note']})"
+            for r in self.rivals
+            if r["status"] == "absent"
         )
         return (
             "Rivals solve the same matrices, assembled beforehand, in turn with each of our routes, at "
@@ -226,9 +259,15 @@ class Report:
         """Per rival: what became of its problems, and its time over each of our routes."""
         verdicts, rows, before = self.summary["verdicts"], [], None
         for row in sorted(self.summary["duels"], key=lambda row: self.title(row["rival"]).lower()):
-            fate = [verdicts[row["rival"]][key] for key in ("solved", "inaccurate", "failed", "wrong", "left out")]
+            fate = [
+                verdicts[row["rival"]][key]
+                for key in ("solved", "inaccurate", "failed", "wrong", "left out")
+            ]
             first = [""] * 6 if row["rival"] == before else [self.title(row["rival"]), *fate]
-            times = [factor(row["ratio"]), f"{factor(row['ratio_min'])} to {factor(row['ratio_max'])}"]
+            times = [
+                factor(row["ratio"]),
+                f"{factor(row['ratio_min'])} to {factor(row['ratio_max'])}",
+            ]
             rows.append([*first, row["ours"], *times, row["wins"], row["even"], row["losses"]])
             before = row["rival"]
         caption = (
@@ -236,8 +275,23 @@ class Report:
             "with an element left for want of time; their time over ours, geometric mean and range, and how often they "
             "win (w), are even (e), or lose (l)."
         )
-        header = ("rival", "solved", "inaccurate", "failed", "wrong", "left", "ours", "mean", "range", "w", "e", "l")
-        return Table(header, rows, caption, (("", 1), ("problems", 5), ("time of the rival / ours", 6)))
+        header = (
+            "rival",
+            "solved",
+            "inaccurate",
+            "failed",
+            "wrong",
+            "left",
+            "ours",
+            "mean",
+            "range",
+            "w",
+            "e",
+            "l",
+        )
+        return Table(
+            header, rows, caption, (("", 1), ("problems", 5), ("time of the rival / ours", 6))
+        )
 
     def ratio_table(self, ours):
         """The ratios to one of our routes, a row per problem, a column per rival."""

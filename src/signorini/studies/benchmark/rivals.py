@@ -1,4 +1,6 @@
-"""Rivals against our routes on the same matrices, in turn in one process, so that a busy machine slows both."""
+"""Rivals against our routes on the same matrices, in turn in one process, so that a busy machine
+slows both.
+"""
 
 import multiprocessing
 import statistics
@@ -42,12 +44,20 @@ def duel(name, domain, statement, element, levels, limit):
     if not rival.available():
         yield [{"status": "absent", "note": rival.install}]
         return
-    rival.solve(discretize_on(domain.level(levels[0]), element, statement), TOLERANCE, limit)  # imports
+    rival.solve(
+        discretize_on(domain.level(levels[0]), element, statement), TOLERANCE, limit
+    )  # imports
     before = None
     for n in levels:
         foreseen = before and before[-1] * max(4.0, before[-1] / before[0])
         if foreseen and foreseen > limit:
-            yield [{"n": n, "status": "left out", "note": f"about {foreseen:.1f} s foreseen, the limit is {limit:g} s"}]
+            yield [
+                {
+                    "n": n,
+                    "status": "left out",
+                    "note": f"about {foreseen:.1f} s foreseen, the limit is {limit:g} s",
+                }
+            ]
             return
         rows = _level(rival, discretize_on(domain.level(n), element, statement), limit)
         yield [row | {"n": n} for row in rows]
@@ -80,7 +90,9 @@ def _level(rival, problem, limit):
         "iterations": answer.iterations,
         **_spread("seconds", times["rival"]),
     }
-    return [row | _against(times["rival"], times[method], method, auto.method) for method in methods]
+    return [
+        row | _against(times["rival"], times[method], method, auto.method) for method in methods
+    ]
 
 
 def _applies(problem, method):
@@ -94,7 +106,11 @@ def _applies(problem, method):
 def _against(rival, ours, method, auto):
     ratios = [a / b for a, b in zip(rival, ours, strict=True)]
     found = _spread("ours", ours)
-    times = {"ours_seconds": found["ours"], "ours_min": found["ours_min"], "ours_max": found["ours_max"]}
+    times = {
+        "ours_seconds": found["ours"],
+        "ours_min": found["ours_min"],
+        "ours_max": found["ours_max"],
+    }
     return {"ours": method, "auto": int(method == auto), **times, **_spread("ratio", ratios)}
 
 
@@ -103,7 +119,8 @@ def _spread(name, values):
 
 
 def guarded(function, arguments, seconds):
-    """What a generator yields in a process of its own, which ends when it has been silent for too long.
+    """What a generator yields in a process of its own, which ends when it has been silent for too
+    long.
 
     Parameters
     ----------

@@ -10,20 +10,30 @@ from signorini.studies.benchmark.columns import ERRORS
 NORMS = ("l2", "h1")
 TARGETS = (1e-1, 1e-2, 1e-3, 1e-4)
 COSTS = ("total", "total_min", "total_max", "dofs", "memory")
-_FLOOR = {"memory": 4096}  # bytes: it is measured in pages, and a coarse level may need none that are new
+_FLOOR = {
+    "memory": 4096
+}  # bytes: it is measured in pages, and a coarse level may need none that are new
 _TOLD = 1e5  # bytes: less is round-off of the allocator
 _FITTED = 4  # finest levels that an exponent is fitted to
 
 
 def with_errors(points, errors):
-    """The rows of the points with the errors of their scene, element and level; None where there are none.
+    """The rows of the points with the errors of their scene, element and level; None where there
+    are none.
 
-    `errors` maps each scene to the rows of its errors.csv. All routes of an element share them: the column
-    `difference` of a point says how far its solution is from the one that they were computed of.
+    `errors` maps each scene to the rows of its errors.csv. All routes of an element share them: the
+    column `difference` of a point says how far its solution is from the one that they were computed
+    of.
     """
-    found = {(scene, row["element"], int(row["n"])): row for scene, rows in errors.items() for row in rows}
+    found = {
+        (scene, row["element"], int(row["n"])): row
+        for scene, rows in errors.items()
+        for row in rows
+    }
     none = dict.fromkeys(ERRORS)
-    keyed = [(row, found.get((row["scene"], row["element"], int(row["n"])), none)) for row in points]
+    keyed = [
+        (row, found.get((row["scene"], row["element"], int(row["n"])), none)) for row in points
+    ]
     return [row | {norm: known[norm] for norm in ERRORS} for row, known in keyed]
 
 
@@ -48,8 +58,10 @@ def reach(points, targets=TARGETS):
     Returns
     -------
     list of dict
-        ``scene``, ``element``, ``method``, ``norm``, ``target``, the `COSTS` (None where the error is not reached) and
-        ``status``: "between levels", "coarsest level", which is better than the target already, or "not reached".
+        ``scene``, ``element``, ``method``, ``norm``, ``target``, the `COSTS` (None where the error
+        is not reached) and
+        ``status``: "between levels", "coarsest level", which is better than the target already, or
+        "not reached".
     """
     rows = []
     for (scene, element, method), found in series(points).items():
@@ -57,7 +69,13 @@ def reach(points, targets=TARGETS):
             shown = [row for row in found if row[norm]]
             for target in targets:
                 status, costs = _cost(shown, norm, target)
-                what = {"scene": scene, "element": element, "method": method, "norm": norm, "target": target}
+                what = {
+                    "scene": scene,
+                    "element": element,
+                    "method": method,
+                    "norm": norm,
+                    "target": target,
+                }
                 rows.append(what | costs | {"status": status})
     return rows
 
@@ -82,7 +100,9 @@ def _at_least(row, cost):
 
 
 def fastest(reached):
-    """(scene, norm, target) -> element -> its row of least time, of all routes; no entry where it is not reached."""
+    """(scene, norm, target) -> element -> its row of least time, of all routes; no entry where it
+    is not reached.
+    """
     best = {}
     for row in reached:
         if row["total"] is not None:
@@ -103,9 +123,9 @@ def better(rows):
     Returns
     -------
     dict
-        Cost -> (element, how many times more the other one pays). For ``total`` the element is None where the ranges of
-        the measured times overlap; ``memory`` is absent below what can be told. Empty unless there are two, both
-        between levels.
+        Cost -> (element, how many times more the other one pays). For ``total`` the element is None
+        where the ranges of the measured times overlap; ``memory`` is absent below what can be told.
+        Empty unless there are two, both between levels.
     """
     if [row["status"] for row in rows.values()] != ["between levels"] * 2:
         return {}
@@ -127,8 +147,9 @@ def growth(points):
     Returns
     -------
     list of dict
-        ``scene``, ``element``, ``method``, ``quantity`` ("total" or "memory"), ``exponent``, and the levels it was
-        fitted to, ``first`` to ``last``. Series of fewer than three levels have none.
+        ``scene``, ``element``, ``method``, ``quantity`` ("total" or "memory"), ``exponent``, and
+        the levels it was fitted to, ``first`` to ``last``. Series of fewer than three levels have
+        none.
     """
     rows = []
     for (scene, element, method), found in series(points).items():
@@ -136,7 +157,9 @@ def growth(points):
         for quantity in ("total", "memory"):
             if len(finest) < 3 or not all(row[quantity] > 0 for row in finest):
                 continue
-            exponent = slopes([row["dofs"] for row in finest], [row[quantity] for row in finest])["fit"]
+            exponent = slopes([row["dofs"] for row in finest], [row[quantity] for row in finest])[
+                "fit"
+            ]
             levels = {"first": int(finest[0]["n"]), "last": int(finest[-1]["n"])}
             what = {"scene": scene, "element": element, "method": method, "quantity": quantity}
             rows.append(what | {"exponent": exponent} | levels)
@@ -144,7 +167,8 @@ def growth(points):
 
 
 def bending(coarse, fine):
-    """What a coarser reference does to errors: rows of the changes that it makes, relative to those by the finer one.
+    """What a coarser reference does to errors: rows of the changes that it makes, relative to those
+    by the finer one.
 
     Both map a scene to the rows of an errors.csv.
     """
@@ -156,7 +180,10 @@ def bending(coarse, fine):
             for norm in (norm for norm in NORMS if key in true and row[norm]):
                 by_fine = true[key][norm]
                 what = {"scene": scene, "element": key[0], "n": key[1], "norm": norm}
-                rows.append(what | {"coarse": row[norm], "fine": by_fine, "change": row[norm] / by_fine - 1.0})
+                rows.append(
+                    what
+                    | {"coarse": row[norm], "fine": by_fine, "change": row[norm] / by_fine - 1.0}
+                )
     return rows
 
 
@@ -171,8 +198,9 @@ def duels(rivals):
     Returns
     -------
     list of dict
-        ``rival``, ``ours``, ``problems``, the rival's ``wins``, ``even`` (the ratios' range holds 1) and ``losses``,
-        and ``ratio``, ``ratio_min``, ``ratio_max``: geometric mean, least and largest of its time over ours.
+        ``rival``, ``ours``, ``problems``, the rival's ``wins``, ``even`` (the ratios' range holds
+        1) and ``losses``, and ``ratio``, ``ratio_min``, ``ratio_max``: geometric mean, least and
+        largest of its time over ours.
     """
     pairs = {}
     for row in rivals:
@@ -198,13 +226,17 @@ def _duel(rival, ours, rows):
 
 
 def verdicts(rivals):
-    """Rival -> counts of its problems: ``solved``, ``inaccurate``, ``failed``, ``left out``, ``absent``, and ``wrong``.
+    """Rival -> counts of its problems: ``solved``, ``inaccurate``, ``failed``, ``left out``,
+    ``absent``, and ``wrong``.
 
-    ``wrong`` are those it claims to have solved although the residual says "failed"; they are among the failed.
+    ``wrong`` are those it claims to have solved although the residual says "failed"; they are among
+    the failed.
     """
     names = ("solved", "inaccurate", "failed", "left out", "absent")
     found = {}
-    for row in {(row["rival"], row["scene"], row["element"], row["n"]): row for row in rivals}.values():
+    for row in {
+        (row["rival"], row["scene"], row["element"], row["n"]): row for row in rivals
+    }.values():
         counts = found.setdefault(row["rival"], dict.fromkeys((*names, "wrong"), 0))
         counts[row["status"]] += 1
         counts["wrong"] += row["status"] == "failed" and row["claimed"] == 1

@@ -1,8 +1,9 @@
 """Other people's solvers on our problems, each behind a small adapter.
 
-In the manner of benchopt: the data are a `Problem`, the objective is `kkt_residual(problem, answer.u)`, recomputed from
-the problem alone whatever a solver claims, and a solver is a function of a `BoundProblem`. Its matrices are prepared
-before the clock starts, and no package is imported before its rival is asked.
+In the manner of benchopt: the data are a `Problem`, the objective is `kkt_residual(problem,
+answer.u)`, recomputed from the problem alone whatever a solver claims, and a solver is a function
+of a `BoundProblem`. Its matrices are prepared before the clock starts, and no package is imported
+before its rival is asked.
 """
 
 import importlib
@@ -67,7 +68,9 @@ class BoundProblem:
         K = problem.A[free][:, free].tocsc()
         K.eliminate_zeros()
         load = (problem.b - problem.A @ u)[free]
-        return cls(K, load, np.searchsorted(free, problem.contact), problem.lower, not problem.fixed.size)
+        return cls(
+            K, load, np.searchsorted(free, problem.contact), problem.lower, not problem.fixed.size
+        )
 
     @property
     def bounds(self):
@@ -90,7 +93,8 @@ class Rival:
     install : str
         The command that installs it.
     adapter : str
-        ``"module:function"``, imported when asked for: (BoundProblem, tolerance, deadline) to (x, claimed, iterations).
+        ``"module:function"``, imported when asked for: (BoundProblem, tolerance, deadline) to (x,
+        claimed, iterations).
     """
 
     name: str
@@ -126,7 +130,9 @@ class Rival:
         start = time.perf_counter()
         try:
             with np.errstate(all="ignore"):
-                u[problem.free], claimed, iterations = adapter(prepared, tolerance, start + time_limit)
+                u[problem.free], claimed, iterations = adapter(
+                    prepared, tolerance, start + time_limit
+                )
         except Exception:  # whatever a foreign package raises on a hard problem
             u[:], claimed, iterations = np.nan, False, 0
         return Answer(u, bool(claimed), int(iterations), time.perf_counter() - start)
@@ -154,7 +160,9 @@ _ALL = (
     _rival("highs", "HiGHS", "highspy", f"{_QUADRATIC}:highs"),
     _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", f"{_BOUNDED}:lbfgsb"),
     _rival("bvls", "SciPy BVLS, condensed", "scipy", f"{_BOUNDED}:bvls"),
-    _rival("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", f"{_BOUNDED}:petsc_vi", "petsc petsc4py"),
+    _rival(
+        "petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", f"{_BOUNDED}:petsc_vi", "petsc petsc4py"
+    ),
     _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", f"{_BOUNDED}:petsc_tao", "petsc petsc4py"),
 )
 

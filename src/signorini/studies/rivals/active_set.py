@@ -1,8 +1,8 @@
 """The primal-dual active set method as it is usually written, with other people's linear solvers.
 
-After Hintermüller, Ito and Kunisch, The primal-dual active set strategy as a semismooth Newton method, SIAM J. Optim.
-13 (2002). It starts with no contact unknown held, or all where nothing else holds the body, and ends when the contact
-set repeats itself from one step to the next.
+After Hintermüller, Ito and Kunisch, The primal-dual active set strategy as a semismooth Newton
+method, SIAM J. Optim. 13 (2002). It starts with no contact unknown held, or all where nothing else
+holds the body, and ends when the contact set repeats itself from one step to the next.
 """
 
 import time
@@ -13,7 +13,9 @@ _MAX_STEPS = 100
 
 
 def active_set(qp, deadline, solve_free):
-    """Solve K x = rhs on the unknowns that are not held, by ``solve_free(mask, rhs)``, until the held ones stay."""
+    """Solve K x = rhs on the unknowns that are not held, by ``solve_free(mask, rhs)``, until the
+    held ones stay.
+    """
     active = np.full(qp.contact.size, qp.floating)
     for step in range(1, _MAX_STEPS + 1):
         x, free = np.zeros_like(qp.f), np.ones(qp.f.size, dtype=bool)
@@ -40,12 +42,20 @@ def superlu(qp, tolerance, deadline):
     """SuperLU told that the matrix is symmetric and positive definite, in every step."""
     from scipy.sparse.linalg import splu
 
-    settings = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
-    return active_set(qp, deadline, lambda free, rhs: splu(qp.K[free][:, free], **settings).solve(rhs))
+    settings = {
+        "permc_spec": "MMD_AT_PLUS_A",
+        "diag_pivot_thresh": 0.0,
+        "options": {"SymmetricMode": True},
+    }
+    return active_set(
+        qp, deadline, lambda free, rhs: splu(qp.K[free][:, free], **settings).solve(rhs)
+    )
 
 
 def pyamg(qp, tolerance, deadline):
-    """Conjugate gradients preconditioned by PyAMG's smoothed aggregation, a new hierarchy in every step."""
+    """Conjugate gradients preconditioned by PyAMG's smoothed aggregation, a new hierarchy in every
+    step.
+    """
     from pyamg import smoothed_aggregation_solver
     from scipy.sparse import csr_matrix
 
@@ -62,7 +72,9 @@ def pyamg(qp, tolerance, deadline):
 
 
 def ngsolve(qp, tolerance, deadline):
-    """NGSolve's sparse Cholesky on the unknowns that are not held, in every step; one thread, more are slower."""
+    """NGSolve's sparse Cholesky on the unknowns that are not held, in every step; one thread, more
+    are slower.
+    """
     from ngsolve import BaseVector, BitArray, SetNumThreads
     from ngsolve.la import SparseMatrixd
 
@@ -74,7 +86,9 @@ def ngsolve(qp, tolerance, deadline):
         full = np.zeros(free.size)
         full[free] = rhs
         solution = matrix.CreateColVector()
-        solution.data = matrix.Inverse(BitArray(free.tolist()), inverse="sparsecholesky") * BaseVector(full)
+        solution.data = matrix.Inverse(
+            BitArray(free.tolist()), inverse="sparsecholesky"
+        ) * BaseVector(full)
         return solution.FV().NumPy()[free]
 
     return active_set(qp, deadline, solve_free)

@@ -24,13 +24,21 @@ def lbfgsb(qp, tolerance, deadline):
         method="L-BFGS-B",
         bounds=list(zip(bounds, np.full(bounds.size, np.inf), strict=True)),
         callback=stop_when_late,
-        options={"gtol": tolerance * size, "ftol": 0.0, "maxiter": _MAX_STEPS, "maxfun": 2 * _MAX_STEPS, "maxcor": 30},
+        options={
+            "gtol": tolerance * size,
+            "ftol": 0.0,
+            "maxiter": _MAX_STEPS,
+            "maxfun": 2 * _MAX_STEPS,
+            "maxcor": 30,
+        },
     )
     return result.x, result.success, result.nit
 
 
 def bvls(qp, tolerance, deadline):
-    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the matrix condensed to the contact unknowns."""
+    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the matrix condensed to the contact
+    unknowns.
+    """
     from scipy.linalg import cholesky, solve_triangular
     from scipy.optimize import lsq_linear
     from scipy.sparse.linalg import splu
@@ -42,7 +50,9 @@ def bvls(qp, tolerance, deadline):
     inner = factors.solve(coupling)
     L = cholesky(qp.K[c][:, c].toarray() - coupling.T @ inner, lower=True)
     target = solve_triangular(L, qp.f[c] - inner.T @ qp.f[i], lower=True)
-    result = lsq_linear(L.T, target, (qp.lower, np.inf), method="bvls", tol=tolerance**2, max_iter=10 * c.size)
+    result = lsq_linear(
+        L.T, target, (qp.lower, np.inf), method="bvls", tol=tolerance**2, max_iter=10 * c.size
+    )
     x = np.empty_like(qp.f)
     x[c] = result.x
     x[i] = factors.solve(qp.f[i] - coupling @ result.x)
@@ -50,7 +60,9 @@ def bvls(qp, tolerance, deadline):
 
 
 def petsc_vi(qp, tolerance, deadline):
-    """PETSc's semismooth Newton method on a reduced space (SNES vinewtonrsls), each step by Cholesky's method."""
+    """PETSc's semismooth Newton method on a reduced space (SNES vinewtonrsls), each step by
+    Cholesky's method.
+    """
     from petsc4py import PETSc
 
     K, x, load, low, high = _petsc(PETSc, qp)
@@ -94,6 +106,12 @@ def _petsc(PETSc, qp):
     matrix = PETSc.Mat().createAIJ(K.shape, csr=(K.indptr, K.indices, K.data), comm=PETSc.COMM_SELF)
     bounds = qp.bounds
     start = np.where(np.isfinite(bounds), bounds, 0.0)
-    low, high = np.where(np.isfinite(bounds), bounds, PETSc.NINFINITY), np.full(bounds.size, PETSc.INFINITY)
-    vectors = [PETSc.Vec().createWithArray(v.copy(), comm=PETSc.COMM_SELF) for v in (start, qp.f, low, high)]
+    low, high = (
+        np.where(np.isfinite(bounds), bounds, PETSc.NINFINITY),
+        np.full(bounds.size, PETSc.INFINITY),
+    )
+    vectors = [
+        PETSc.Vec().createWithArray(v.copy(), comm=PETSc.COMM_SELF)
+        for v in (start, qp.f, low, high)
+    ]
     return matrix, *vectors

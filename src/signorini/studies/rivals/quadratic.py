@@ -1,7 +1,9 @@
-"""General solvers of quadratic programs; the contact unknowns are bounded from below, all others are free.
+"""General solvers of quadratic programs; the contact unknowns are bounded from below, all others
+are free.
 
-Interior point methods also stop on the duality gap, a sum of products gap times force. It is asked for a thousandth of
-the tolerance: at the tolerance itself the smaller factor of a product stays far above it.
+Interior point methods also stop on the duality gap, a sum of products gap times force. It is asked
+for a thousandth of the tolerance: at the tolerance itself the smaller factor of a product stays far
+above it.
 """
 
 import time
@@ -59,7 +61,9 @@ def clarabel(qp, tolerance, deadline):
     settings.tol_feas = tolerance
     settings.tol_gap_abs = settings.tol_gap_rel = _GAP * tolerance
     cones = [clarabel.NonnegativeConeT(qp.lower.size)]
-    solver = clarabel.DefaultSolver(_upper(qp.K), -qp.f, -_selection(qp), -qp.lower, cones, settings)
+    solver = clarabel.DefaultSolver(
+        _upper(qp.K), -qp.f, -_selection(qp), -qp.lower, cones, settings
+    )
     result = solver.solve()
     return np.array(result.x), result.status == clarabel.SolverStatus.Solved, result.iterations
 
@@ -84,7 +88,15 @@ def proxqp(qp, tolerance, deadline):
 
     solver = proxqp.sparse.QP(qp.f.size, 0, qp.lower.size)
     solver.settings.eps_abs = solver.settings.eps_rel = tolerance
-    solver.init(csc_matrix(qp.K), -qp.f, None, None, _selection(qp), qp.lower, np.full(qp.lower.size, np.inf))
+    solver.init(
+        csc_matrix(qp.K),
+        -qp.f,
+        None,
+        None,
+        _selection(qp),
+        qp.lower,
+        np.full(qp.lower.size, np.inf),
+    )
     solver.solve()
     info = solver.results.info
     return solver.results.x, info.status == proxqp.QPSolverOutput.PROXQP_SOLVED, info.iter
@@ -102,7 +114,11 @@ def highs(qp, tolerance, deadline):
     model.lp_.col_upper_ = np.full(size, highspy.kHighsInf)
     model.lp_.a_matrix_.start_ = np.zeros(size + 1, dtype=np.int32)
     model.hessian_.dim_, model.hessian_.format_ = size, highspy.HessianFormat.kTriangular
-    model.hessian_.start_, model.hessian_.index_, model.hessian_.value_ = below.indptr, below.indices, below.data
+    model.hessian_.start_, model.hessian_.index_, model.hessian_.value_ = (
+        below.indptr,
+        below.indices,
+        below.data,
+    )
     solver = highspy.Highs()
     options = {
         "output_flag": False,

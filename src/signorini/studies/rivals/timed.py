@@ -1,4 +1,6 @@
-"""Rivals in a process of their own: one that neither ends nor can be told when to is ended from outside."""
+"""Rivals in a process of their own: one that neither ends nor can be told when to is ended from
+outside.
+"""
 
 import multiprocessing
 import os

@@ -1,4 +1,6 @@
-"""What each choice that the paper leaves unsaid does to its table: the largest relative change of an entry."""
+"""What each choice that the paper leaves unsaid does to its table: the largest relative change of
+an entry.
+"""
 
 from signorini.errors.reference import ReferenceErrors
 from signorini.studies.sensitivity.options import largest_change, solutions, with_choices
@@ -12,7 +14,8 @@ def effects_of_choices(statement, errors, elements, levels, reference, norms):
     statement : ProblemStatement
         On a rectangle.
     errors : dict
-        The scene's errors by (element, n, norm), with the full norm ``"h1"`` and the seminorm ``"h1_semi"``.
+        The scene's errors by (element, n, norm), with the full norm ``"h1"`` and the seminorm
+        ``"h1_semi"``.
     elements, levels : sequence
     reference : tuple
         Element and level of the reference.
@@ -22,8 +25,9 @@ def effects_of_choices(statement, errors, elements, levels, reference, norms):
     Returns
     -------
     dict
-        Largest ``|changed / entry - 1|`` of an entry, dimensionless, for ``"diagonal"`` (the other one), ``"load"``
-        (integrated exactly), ``"norm"`` (seminorm for full norm) and ``"quadrature"`` (norms by the centroid rule).
+        Largest ``|changed / entry - 1|`` of an entry, dimensionless, for ``"diagonal"`` (the other
+        one), ``"load"`` (integrated exactly), ``"norm"`` (seminorm for full norm) and
+        ``"quadrature"`` (norms by the centroid rule).
     """
     diagonal, load = statement.domain["diagonal"], statement.load_quadrature
     other = {"falling": "rising", "rising": "falling"}[diagonal]
@@ -31,7 +35,9 @@ def effects_of_choices(statement, errors, elements, levels, reference, norms):
     changed = {
         "diagonal": _table(with_choices(statement, other, load), *asked),
         "load": _table(with_choices(statement, diagonal, "exact"), *asked),
-        "norm": {key: errors[(*key[:2], "h1_semi" if key[2] == "h1" else key[2])] for key in errors},
+        "norm": {
+            key: errors[(*key[:2], "h1_semi" if key[2] == "h1" else key[2])] for key in errors
+        },
         "quadrature": _table(statement, *asked, quadrature="centroid"),
     }
     entries = {(e, n, norm): errors[e, n, norm] for e in elements for n in levels for norm in norms}

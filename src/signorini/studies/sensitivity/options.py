@@ -1,4 +1,6 @@
-"""The choices that the paper leaves unsaid, made otherwise: the statement, its solutions, and how far a table moves."""
+"""The choices that the paper leaves unsaid, made otherwise: the statement, its solutions, and how
+far a table moves.
+"""
 
 from dataclasses import replace
 
@@ -8,7 +10,9 @@ from signorini.solvers import solve
 
 def with_choices(statement, diagonal, load):
     """A statement on a rectangle with another diagonal and another load quadrature."""
-    return replace(statement, domain=statement.domain | {"diagonal": diagonal}, load_quadrature=load)
+    return replace(
+        statement, domain=statement.domain | {"diagonal": diagonal}, load_quadrature=load
+    )
 
 
 def solutions(statement, asked, level=None):

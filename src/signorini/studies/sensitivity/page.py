@@ -1,4 +1,6 @@
-"""The page of the sensitivity study: its findings in words and tables, every number from the study's rows."""
+"""The page of the sensitivity study: its findings in words and tables, every number from the
+study's rows.
+"""
 
 from collections import Counter
 
@@ -22,7 +24,13 @@ NAMES = {
     "h1": {"full": "full norm", "semi": "seminorm"},
     "slope": {"mean": "mean", "fit": "least-squares fit"},
 }
-WORDS = {"diagonal": "diagonal", "load": "load", "rule": "norms", "h1": "$H^1$ error", "slope": "slope"}
+WORDS = {
+    "diagonal": "diagonal",
+    "load": "load",
+    "rule": "norms",
+    "h1": "$H^1$ error",
+    "slope": "slope",
+}
 _LETTERS = {"P1": "C", "CR": "N", TIE: "="}
 
 
@@ -93,7 +101,9 @@ def _question(rows):
 
 def _answer(rows):
     counts = Counter(row["matched"] for row in rows)
-    other = [row for row in rows if any(row[choice] != PAPER[choice] for choice in ("diagonal", "load"))]
+    other = [
+        row for row in rows if any(row[choice] != PAPER[choice] for choice in ("diagonal", "load"))
+    ]
     nearest = min(other, key=lambda row: row["largest_miss"])
     return Text(
         _prose(f"""
@@ -111,7 +121,10 @@ def _best(rows, counts):
         return f"No combination matches all {total} errors, none more than {max(counts)}"
     found = [row for row in rows if row["matched"] == total]
     slopes = [row for row in found if row["slopes_matched"] == row["slopes"] > 0]
-    also = f"With the slope {_named(slopes, 'slope')} its {rows[0]['slopes']} slopes come out as well." * bool(slopes)
+    also = (
+        f"With the slope {_named(slopes, 'slope')} its {rows[0]['slopes']} slopes come out as well."
+        * bool(slopes)
+    )
     return f"""
         All {total} errors come out under {counts[total]} of them: {_options(found)}. The midpoint rule is exact for
         squares of affine functions, and the errors do not depend on what a slope is, so that this is a single table.
@@ -125,7 +138,9 @@ def _options(rows):
 
 
 def _named(rows, choice):
-    return " or ".join(_name(choice, option) for option in dict.fromkeys(row[choice] for row in rows))
+    return " or ".join(
+        _name(choice, option) for option in dict.fromkeys(row[choice] for row in rows)
+    )
 
 
 def _name(choice, option):
@@ -151,11 +166,22 @@ def _changes_table(rows):
     found, body = one_at_a_time(rows), []
     for row in found:
         changed = [choice for choice in CHOICES if row[choice] != PAPER[choice]]
-        name = f"{WORDS[changed[0]]}: {_name(changed[0], row[changed[0]])}" if changed else "as found"
+        name = (
+            f"{WORDS[changed[0]]}: {_name(changed[0], row[changed[0]])}" if changed else "as found"
+        )
         letters = "".join(_LETTERS[word] for word in row["l2_smaller"].split())
         slopes = [str(row["slopes_matched"])] * bool(row["slopes"])
         rates = [", ".join(pair) for pair in (_rates(row)[:2], _rates(row)[2:])]
-        body.append([name, letters, str(row["matched"]), *slopes, f"{percent(row['largest_miss'])} %", *rates])
+        body.append(
+            [
+                name,
+                letters,
+                str(row["matched"]),
+                *slopes,
+                f"{percent(row['largest_miss'])} %",
+                *rates,
+            ]
+        )
     head = ["choice", "$L^2$ smaller", "errors", *["slopes"] * bool(found[0]["slopes"]), "off by"]
     caption = """
         One choice changed at a time: who has the smaller $L^2$ error on each level, coarsest first (C is CF, N is
@@ -171,7 +197,9 @@ def _conclusions(rows, pairs, levels):
     same = [row for row in pairs if row["l2_smaller"] == base["l2_smaller"]]
     rates = [row for row in pairs if _rates(row) == _rates(base)]
     better = [row for row in pairs if row["l2_ratio"] < 1.0]
-    ties = "Ties occur where $f$ vanishes at all points of the load rule, and both elements give zero."
+    ties = (
+        "Ties occur where $f$ vanishes at all points of the load rule, and both elements give zero."
+    )
     return Text(
         _prose(f"""
         What would have been concluded? As found, {_ranking(base, levels)}. Of the {len(pairs)} pairs of a diagonal
@@ -194,12 +222,16 @@ def _ranking(row, levels):
     parts = []
     for element, name in ELEMENTS.items():
         where_better = [str(n) for n, word in found if word == element]
-        parts += [f"{name} has the smaller $L^2$ error at $N$ = {', '.join(where_better)}"] * bool(where_better)
+        parts += [f"{name} has the smaller $L^2$ error at $N$ = {', '.join(where_better)}"] * bool(
+            where_better
+        )
     return " and ".join(parts)
 
 
 def _unstable(rows, norm):
-    """Pairs of diagonal and load for which the ranking depends on the norm rule or the meaning of the H1 error."""
+    """Pairs of diagonal and load for which the ranking depends on the norm rule or the meaning of
+    the H1 error.
+    """
     found = {}
     for row in rows:
         found.setdefault((row["diagonal"], row["load"]), set()).add(row[f"{norm}_smaller"])
@@ -212,7 +244,12 @@ def _rankings_table(pairs, levels):
         counts = [Counter(row[f"{norm}_smaller"].split()[k] for row in pairs) for norm in NORMS]
         body.append([str(n), *(str(count[word]) for count in counts for word in ("P1", "CR", TIE))])
     means = [[row[f"{norm}_ratio"] for row in pairs] for norm in NORMS]
-    body.append(["mean", *(str(c) for m in means for c in (sum(r >= 1 for r in m), sum(r < 1 for r in m), 0))])
+    body.append(
+        [
+            "mean",
+            *(str(c) for m in means for c in (sum(r >= 1 for r in m), sum(r < 1 for r in m), 0)),
+        ]
+    )
     head = ("$N$", *(f"{SYMBOLS[norm]} {word}" for norm in NORMS for word in ("CF", "NCF", "tie")))
     caption = _prose(f"""
         In how many of the {len(pairs)} pairs of a diagonal and a load rule each element has the smaller error; in the
@@ -226,8 +263,14 @@ def _loads_table(pairs):
     for load in dict.fromkeys(row["load"] for row in pairs):
         found = where(pairs, load=load)
         columns = ["l2_ratio", *(f"slope_{norm}_{element}" for norm, element in SERIES)]
-        body.append([_name("load", load), *(_range([row[column] for row in found]) for column in columns)])
-    head = ("load", "$L^2$ NCF/CF", *(f"slope {SYMBOLS[norm]} {ELEMENTS[element]}" for norm, element in SERIES))
+        body.append(
+            [_name("load", load), *(_range([row[column] for row in found]) for column in columns)]
+        )
+    head = (
+        "load",
+        "$L^2$ NCF/CF",
+        *(f"slope {SYMBOLS[norm]} {ELEMENTS[element]}" for norm, element in SERIES),
+    )
     caption = _prose("""
         For each load rule, the range over the diagonals of the geometric mean of the ratios of @sensitivity_ratios,
         and of the average slopes.

@@ -13,6 +13,10 @@ ELEMENTS = ("P1", "CR")
 
 
 def count_solves(errors):
-    """Solves that the rows took: one per diagonal, load, element and level, and a reference per diagonal and load."""
+    """Solves that the rows took: one per diagonal, load, element and level, and a reference per
+    diagonal and load.
+    """
     references = {(row["diagonal"], row["load"]) for row in errors}
-    return len({(row["diagonal"], row["load"], row["element"], row["n"]) for row in errors}) + len(references)
+    return len({(row["diagonal"], row["load"], row["element"], row["n"]) for row in errors}) + len(
+        references
+    )

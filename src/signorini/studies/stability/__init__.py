@@ -1,1 +1,3 @@
-"""The stability suite: generated problems, a judge in extended precision, extremes, and where round-off begins."""
+"""The stability suite: generated problems, a judge in extended precision, extremes, and where
+round-off begins.
+"""

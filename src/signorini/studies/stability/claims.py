@@ -1,6 +1,13 @@
 """What the stability suite promises, held against what it measured."""
 
-from signorini.studies.stability.proof import ERROR, OVERESTIMATE, RESIDUAL, UNDERESTIMATE, answered, estimated
+from signorini.studies.stability.proof import (
+    ERROR,
+    OVERESTIMATE,
+    RESIDUAL,
+    UNDERESTIMATE,
+    answered,
+    estimated,
+)
 from signorini.studies.stability.round_off import EPS
 
 DIGITS = 11
@@ -44,7 +51,11 @@ def claims(success, statuses, digits, extremes):
             0,
         ),
         *_estimates([row for row in ours if row["claimed"]]),
-        _all(f"numbers of Table 5.1 with at least {DIGITS} stable digits", digits, lambda row: row["digits"] >= DIGITS),
+        _all(
+            f"numbers of Table 5.1 with at least {DIGITS} stable digits",
+            digits,
+            lambda row: row["digits"] >= DIGITS,
+        ),
         *_places(extremes),
         *_contact(extremes),
         *_walk(extremes["walk"]),
@@ -57,7 +68,11 @@ def _estimates(answers):
         "undecided"
     )
     return [
-        _all(f"accuracy {of}, as stated: {span}", answers, lambda row, which=which: estimated(row, which))
+        _all(
+            f"accuracy {of}, as stated: {span}",
+            answers,
+            lambda row, which=which: estimated(row, which),
+        )
         for which, of in (("", "of u"), ("multiplier_", "of the contact forces"))
     ]
 
@@ -79,7 +94,9 @@ def _places(extremes):
             max(row["change"] for row in extremes["sizes"]),
             1e-12,
         ),
-        _number("body moved: relative change of u, in units of eps times offset over size", shift, 1),
+        _number(
+            "body moved: relative change of u, in units of eps times offset over size", shift, 1
+        ),
         _all(
             "body moved until the coordinates cannot resolve its cells: refused for that reason",
             refused,
@@ -109,18 +126,29 @@ def _walk(rows):
     distance = max(row["difference"] / (1e-14 * row["condition"]) for row in solved)
     return [
         _all("random scenes solved, to what u has room for", rows, _solved_or_stored),
-        _number("random scenes: distance from BVLS, in units of 1e-14 times condition", distance, 1),
+        _number(
+            "random scenes: distance from BVLS, in units of 1e-14 times condition", distance, 1
+        ),
     ]
 
 
 def _solved_or_stored(row):
-    """Whether a row is solved; or inaccurate where rounding u alone, beside a constant, takes what is missing."""
-    return row["status"] == "solved" or (row["status"] == "inaccurate" and row["stored"] > 0.1 * ERROR)
+    """Whether a row is solved; or inaccurate where rounding u alone, beside a constant, takes what
+    is missing.
+    """
+    return row["status"] == "solved" or (
+        row["status"] == "inaccurate" and row["stored"] > 0.1 * ERROR
+    )
 
 
 def _all(claim, rows, good):
     count = sum(map(good, rows))
-    return {"claim": claim, "measured": f"{count} of {len(rows)}", "limit": "all", "met": 0 < count == len(rows)}
+    return {
+        "claim": claim,
+        "measured": f"{count} of {len(rows)}",
+        "limit": "all",
+        "met": 0 < count == len(rows),
+    }
 
 
 def _number(claim, value, limit):

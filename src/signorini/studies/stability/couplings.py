@@ -1,4 +1,5 @@
-"""The Dirichlet form as a network of couplings, in extended precision (80 bits), with what its rounding may be.
+"""The Dirichlet form as a network of couplings, in extended precision (80 bits), with what its
+rounding may be.
 
 Vertices are taken as exact; of a `Grid`, the side lengths and numbers of cells.
 """
@@ -11,7 +12,8 @@ from signorini.fem.elements import element as find_element
 from signorini.mesh.grid import Grid
 from signorini.studies.stability.elimination import EXTENDED
 
-# The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its ends, of CR the others.
+# The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its
+# ends, of CR the others.
 _COUPLED = {"P1": ((0, 1), (1, 2), (2, 0)), "CR": ((1, 2), (2, 0), (0, 1))}
 _FACTOR = {"P1": 1, "CR": 4}
 
@@ -19,8 +21,9 @@ _FACTOR = {"P1": 1, "CR": 4}
 class Couplings(NamedTuple):
     """Terms w (u_i - u_j) of the forces, one for every facet of every triangle.
 
-    ``first`` and ``second`` are i and j, ``weight`` w, and ``rounding`` what w is summed from: eps times it is the
-    error of w. All have shape (3 nt,); the last two are longdouble, in the unit of the coefficient.
+    ``first`` and ``second`` are i and j, ``weight`` w, and ``rounding`` what w is summed from: eps
+    times it is the error of w. All have shape (3 nt,); the last two are longdouble, in the unit of
+    the coefficient.
     """
 
     first: np.ndarray
@@ -32,8 +35,9 @@ class Couplings(NamedTuple):
 def couplings(mesh, element, coefficient=None):
     """The couplings of the Dirichlet form.
 
-    With a and b the edges of a triangle from the facet's ends to the opposite vertex, P1 couples the ends by
-    w = a.b / (2 |a x b|), half the cotangent of the angle; CR couples the other two facets by 4 w.
+    With a and b the edges of a triangle from the facet's ends to the opposite vertex, P1 couples
+    the ends by w = a.b / (2 |a x b|), half the cotangent of the angle; CR couples the other two
+    facets by 4 w.
 
     Parameters
     ----------
@@ -49,12 +53,23 @@ def couplings(mesh, element, coefficient=None):
     crossing = edges[0, 0] * edges[1, 1], edges[0, 1] * edges[1, 0]
     area = np.abs(crossing[0] - crossing[1])
     flat = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
-    scale = EXTENDED(0.5 * _FACTOR[element]) / area * (1 if coefficient is None else coefficient.astype(EXTENDED))
+    scale = (
+        EXTENDED(0.5 * _FACTOR[element])
+        / area
+        * (1 if coefficient is None else coefficient.astype(EXTENDED))
+    )
     dofs, found = find_element(element).triangle_dofs(mesh), []
     for facet, (one, other) in enumerate(_COUPLED[element]):
         along = edges[facet - 2] * edges[facet - 1]
         weight = -scale * along.sum(axis=0)
-        found.append((dofs[one], dofs[other], weight, scale * np.abs(along).sum(axis=0) + flat * np.abs(weight)))
+        found.append(
+            (
+                dofs[one],
+                dofs[other],
+                weight,
+                scale * np.abs(along).sum(axis=0) + flat * np.abs(weight),
+            )
+        )
     return Couplings(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
 
@@ -62,17 +77,27 @@ def _edge_vectors(mesh):
     """The edges 01, 12 and 20 of all triangles, longdouble, shape (3, 2, nt)."""
     if isinstance(mesh, Grid):
         spacing = np.array(mesh.size, dtype=EXTENDED) / (mesh.nx, mesh.ny)
-        corners = np.repeat(np.array(mesh.corners).transpose(1, 2, 0), mesh.nx * mesh.ny, axis=2) * spacing[:, None]
+        corners = (
+            np.repeat(np.array(mesh.corners).transpose(1, 2, 0), mesh.nx * mesh.ny, axis=2)
+            * spacing[:, None]
+        )
     else:
         corners = mesh.p.astype(EXTENDED)[:, mesh.t].transpose(1, 0, 2)
     return np.roll(corners, -1, axis=0) - corners
 
 
 def extended_stiffness(mesh, element, coefficient=None):
-    """The stiffness matrix of `couplings`, scipy.sparse.csr_array of longdouble, shape (ndof, ndof)."""
+    """The stiffness matrix of `couplings`, scipy.sparse.csr_array of longdouble, shape (ndof,
+    ndof).
+    """
     from scipy.sparse import coo_array
 
     first, second, weight, _ = couplings(mesh, element, coefficient)
     size = find_element(element).size(mesh)
-    rows, columns = np.concatenate([first, second] * 2), np.concatenate([second, first, first, second])
-    return coo_array((np.concatenate([-weight, -weight, weight, weight]), (rows, columns)), shape=(size, size)).tocsr()
+    rows, columns = (
+        np.concatenate([first, second] * 2),
+        np.concatenate([second, first, first, second]),
+    )
+    return coo_array(
+        (np.concatenate([-weight, -weight, weight, weight]), (rows, columns)), shape=(size, size)
+    ).tocsr()

@@ -44,7 +44,10 @@ def table(statement, asked, solved=None):
             errors = [found[n][norm] for n in asked["levels"]]
             slope = slopes([1.0 / n for n in asked["levels"]], errors)["mean"]
             values = dict(zip((*asked["levels"], 0), (*errors, slope), strict=True))
-            rows += [{"element": element, "n": n, "norm": norm, "value": value} for n, value in values.items()]
+            rows += [
+                {"element": element, "n": n, "norm": norm, "value": value}
+                for n, value in values.items()
+            ]
     return rows
 
 
@@ -69,14 +72,18 @@ def last_bit(rng):
         parts = {}
         for name in ("b", "lower", "fixed_values"):
             values = getattr(problem, name)
-            parts[name] = np.nextafter(values, values + rng.integers(-1, 2, values.size) * np.abs(values))
+            parts[name] = np.nextafter(
+                values, values + rng.integers(-1, 2, values.size) * np.abs(values)
+            )
         return solve(replace(problem, **parts)).u
 
     return solved
 
 
 def renumbered(statement, rng, method):
-    """Solve on the same mesh with vertices, triangles and edges numbered at random, and number u back."""
+    """Solve on the same mesh with vertices, triangles and edges numbered at random, and number u
+    back.
+    """
 
     def solved(problem):
         mesh, vertex, facet = renumber(problem.mesh, rng)
@@ -103,7 +110,8 @@ def renumber(mesh, rng):
     parts = {label: found for label, found in ends.items() if found.size}
     new = labelled(NamedMesh(p, np.ascontiguousarray(t), parts), {label: label for label in parts})
     keys, wanted = (
-        np.sort(facets, axis=0).T.astype(np.int64) @ [p.shape[1], 1] for facets in (new.facets, vertex[mesh.facets])
+        np.sort(facets, axis=0).T.astype(np.int64) @ [p.shape[1], 1]
+        for facets in (new.facets, vertex[mesh.facets])
     )
     order = np.argsort(keys)
     return new, vertex, order[np.searchsorted(keys[order], wanted)]
@@ -128,18 +136,24 @@ def variant(name, statement, asked, samples):
     """
     rows = []
     for label, sample, solved in _ways(name, statement, samples):
-        rows += [{"variant": label, "sample": sample} | row for row in table(statement, asked, solved)]
+        rows += [
+            {"variant": label, "sample": sample} | row for row in table(statement, asked, solved)
+        ]
     return rows
 
 
 def _ways(name, statement, samples):
     if name in ("auto", "routes"):
-        return [(method, 0, by_route(method)) for method in (METHODS if name == "routes" else ("auto",))]
+        return [
+            (method, 0, by_route(method)) for method in (METHODS if name == "routes" else ("auto",))
+        ]
     general = next(method for method in METHODS if method != "fourier")
     chances = [np.random.default_rng([20, sample]) for sample in range(samples)]
     if name == "last-bit":
         return [(name, sample, last_bit(rng)) for sample, rng in enumerate(chances)]
-    return [(name, sample, renumbered(statement, rng, general)) for sample, rng in enumerate(chances)]
+    return [
+        (name, sample, renumbered(statement, rng, general)) for sample, rng in enumerate(chances)
+    ]
 
 
 def digits(base, rows):
@@ -155,8 +169,9 @@ def digits(base, rows):
     Returns
     -------
     list of dict
-        Per cell ``element``, ``n``, ``norm`` and ``value``; ``digits`` = -log10 of the largest relative change, at
-        most that of one rounding; and the same per variant, ``digits_<variant>``.
+        Per cell ``element``, ``n``, ``norm`` and ``value``; ``digits`` = -log10 of the largest
+        relative change, at most that of one rounding; and the same per variant,
+        ``digits_<variant>``.
     """
     key = ("element", "n", "norm")
     values = {tuple(row[k] for k in key): row["value"] for row in base}
@@ -172,7 +187,11 @@ def digits(base, rows):
             for name in names
         }
         stable = {f"digits_{name}": _digits(change) for name, change in changes.items()}
-        found.append(dict(zip(key, cell, strict=True)) | {"value": value, "digits": min(stable.values())} | stable)
+        found.append(
+            dict(zip(key, cell, strict=True))
+            | {"value": value, "digits": min(stable.values())}
+            | stable
+        )
     return found
 
 

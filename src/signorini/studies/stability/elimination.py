@@ -1,8 +1,9 @@
 """Elimination of a network of couplings, node by node, in extended precision (80 bits).
 
-A matrix whose rows sum to zero but for a ground is known by its couplings alone. Eliminating a node joins its
-neighbours by the products of their couplings to it over the sum of all of them, so that no diagonal is ever formed:
-where couplings are positive nothing cancels, however far apart they are (Grassmann, Taksar and Heyman 1985).
+A matrix whose rows sum to zero but for a ground is known by its couplings alone. Eliminating a node
+joins its neighbours by the products of their couplings to it over the sum of all of them, so that
+no diagonal is ever formed: where couplings are positive nothing cancels, however far apart they are
+(Grassmann, Taksar and Heyman 1985).
 """
 
 import numpy as np
@@ -54,7 +55,9 @@ class Elimination:
         near, far = self._near[node, self.width + 1 :], self._far[node]
         pivot = near.sum() + far.sum()
         if not pivot > 0:
-            raise SolverError("extended precision: the stiffness matrix is not positive definite, to its digits")
+            raise SolverError(
+                "extended precision: the stiffness matrix is not positive definite, to its digits"
+            )
         share_near, share_far = near / pivot, far / pivot
         after = slice(node + 1, node + 1 + self.width)
         window = self._window(node + 1)
@@ -66,7 +69,9 @@ class Elimination:
     def _window(self, node):
         """The square of couplings among the `width` nodes from `node` on, a view."""
         row, item = self._near.strides
-        return as_strided(self._near[node:, self.width :], (self.width, self.width), (row - item, item))
+        return as_strided(
+            self._near[node:, self.width :], (self.width, self.width), (row - item, item)
+        )
 
     def reduce(self, load):
         """Hand the load of the nodes to those kept.
@@ -91,9 +96,13 @@ class Elimination:
         return loads, self._far[: self.size].T @ loads
 
     def extend(self, loads, kept):
-        """Values at the nodes, shape (n, r), from `loads` of `reduce` and values at the nodes kept, shape (m, r)."""
+        """Values at the nodes, shape (n, r), from `loads` of `reduce` and values at the nodes kept,
+        shape (m, r).
+        """
         values = np.zeros((self.size + self.width, loads.shape[1]), dtype=EXTENDED)
         values[: self.size] = loads / self._pivots[:, None] + self._far[: self.size] @ kept
         for node in range(self.size - 1, -1, -1):
-            values[node] += self._near[node, self.width + 1 :] @ values[node + 1 : node + 1 + self.width]
+            values[node] += (
+                self._near[node, self.width + 1 :] @ values[node + 1 : node + 1 + self.width]
+            )
         return values[: self.size]

@@ -1,12 +1,14 @@
 """Solutions in extended precision (80 bits): the judge of solutions in double precision.
 
-The judge takes vertices, coefficient, load, obstacle and Dirichlet values as exact, and shares no arithmetic with the
-solvers. It never forms the matrix: what acts on a degree of freedom is the sum of couplings times differences, and the
-elimination keeps couplings too, so that neither stiff parts nor graded cells cost digits. The solution is the sum of
-two numbers at each degree of freedom, refined until its steps drown in round-off.
+The judge takes vertices, coefficient, load, obstacle and Dirichlet values as exact, and shares no
+arithmetic with the solvers. It never forms the matrix: what acts on a degree of freedom is the sum
+of couplings times differences, and the elimination keeps couplings too, so that neither stiff parts
+nor graded cells cost digits. The solution is the sum of two numbers at each degree of freedom,
+refined until its steps drown in round-off.
 
-The judge knows its own error: what rounding of all terms of the forces, by random signs, does to gaps and forces. A
-sign counts only beyond that, and the contact set is exchanged until no sign that counts is wrong.
+The judge knows its own error: what rounding of all terms of the forces, by random signs, does to
+gaps and forces. A sign counts only beyond that, and the contact set is exchanged until no sign that
+counts is wrong.
 """
 
 from dataclasses import dataclass
@@ -24,7 +26,9 @@ DOUBLE = float(np.finfo(float).eps)
 _SAMPLES = 5
 _SAFETY = 4.0  # between the largest of so many samples and a bound
 _MOST_STEPS = 60
-_PATIENCE = 4  # exchanges of all wrong signs without gain before one at a time (Judice and Pires 1994)
+_PATIENCE = (
+    4  # exchanges of all wrong signs without gain before one at a time (Judice and Pires 1994)
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +46,8 @@ class Judgement:
     active : ndarray of bool, shape (nc,)
         Where the constraint binds.
     margin : ndarray, shape (nc,)
-        Gap or force of each contact degree of freedom in units of its own error bound; its sign is sure above 1.
+        Gap or force of each contact degree of freedom in units of its own error bound; its sign is
+        sure above 1.
     variation : longdouble
         max u - min u, or max |u| where u is constant.
     acting : longdouble
@@ -52,8 +57,9 @@ class Judgement:
     force_error : longdouble
         The same of the contact forces, in their unit.
     limit : float
-        What rounding of all terms of the forces to double precision does to u, and of u itself, relative to the
-        variation. No algorithm that is told no more than the entries of the matrix can be expected to do better.
+        What rounding of all terms of the forces to double precision does to u, and of u itself,
+        relative to the variation. No algorithm that is told no more than the entries of the matrix
+        can be expected to do better.
     stored : float
         What rounding of u itself to double precision does, relative to the variation.
     """
@@ -80,7 +86,9 @@ class Judgement:
         return _ratio(_largest((u - self.shift) - self.displacement), self.variation)
 
     def force(self, decided):
-        """What errors of contact forces are relative to: the largest at the dofs `decided`, or else `acting`."""
+        """What errors of contact forces are relative to: the largest at the dofs `decided`, or else
+        `acting`.
+        """
         largest = np.max(self.multiplier, where=decided, initial=0)
         return max(largest, LEAST_FORCE * self.acting) if largest else self.acting
 
@@ -89,7 +97,9 @@ class Judgement:
         return DOUBLE * _ratio(self.acting, self.force(decided))
 
     def multiplier_limit(self, decided):
-        """What rounding of all terms to double precision does to contact forces, relative to `force`."""
+        """What rounding of all terms to double precision does to contact forces, relative to
+        `force`.
+        """
         return DOUBLE / EPS / _SAFETY * _ratio(self.force_error, self.force(decided))
 
     def multiplier_distance(self, multiplier, decided):
@@ -101,7 +111,9 @@ class Judgement:
         return int(np.sum((active != self.active) & (self.margin > 1) & ~undecided))
 
     def needless(self, undecided, factor):
-        """Number of dofs undecided, though the sign exceeds its error in double precision by a factor."""
+        """Number of dofs undecided, though the sign exceeds its error in double precision by a
+        factor.
+        """
         return int(np.sum(undecided & (self.margin > factor * DOUBLE / EPS)))
 
 
@@ -121,7 +133,8 @@ def judge(problem, solution=None):
     Raises
     ------
     SolverError
-        If the matrix is not positive definite, to its digits, or no contact set without a wrong sign is found.
+        If the matrix is not positive definite, to its digits, or no contact set without a wrong
+        sign is found.
     """
     return _Search(problem).run(solution)
 
@@ -147,15 +160,23 @@ class _Search:
             active = found.active
             self._move(found)
             step, drowned = _largest(found.step), _largest(found.noise)
-            if not found.wrong.any() and np.array_equal(active, before) and (step <= drowned or 2 * step > last):
+            if (
+                not found.wrong.any()
+                and np.array_equal(active, before)
+                and (step <= drowned or 2 * step > last)
+            ):
                 return self._verdict(found)
             last = step if np.array_equal(active, before) else np.inf
-        raise SolverError(f"extended precision: no contact set in {_MOST_STEPS} steps, or none but for round-off")
+        raise SolverError(
+            f"extended precision: no contact set in {_MOST_STEPS} steps, or none but for round-off"
+        )
 
     def _start(self, solution):
         fixed, contact = self.problem.fixed, self.problem.contact
         active = np.ones(contact.size, dtype=bool) if solution is None else solution.active.copy()
-        self.head = np.zeros_like(self.b) if solution is None else solution.u.astype(EXTENDED) - self.shift
+        self.head = (
+            np.zeros_like(self.b) if solution is None else solution.u.astype(EXTENDED) - self.shift
+        )
         self.head[fixed] = self.problem.fixed_values.astype(EXTENDED) - self.shift
         self.head[contact[active]] = self.lower[active]
         self.tail = np.zeros_like(self.b)
@@ -194,7 +215,12 @@ class _Search:
             displacement=u,
             multiplier=multiplier,
             active=found.active,
-            margin=np.divide(value, bound, out=np.where(value > 0, EXTENDED(np.inf), EXTENDED(0)), where=bound > 0),
+            margin=np.divide(
+                value,
+                bound,
+                out=np.where(value > 0, EXTENDED(np.inf), EXTENDED(0)),
+                where=bound > 0,
+            ),
             variation=variation,
             acting=acting,
             error=_ratio(_SAFETY * noise + _largest(found.step), variation),
@@ -205,7 +231,9 @@ class _Search:
 
 
 class _Response(NamedTuple):
-    """What loads do with a contact set: the step of u and that of round-off; gaps, forces and their errors after it."""
+    """What loads do with a contact set: the step of u and that of round-off; gaps, forces and their
+    errors after it.
+    """
 
     active: np.ndarray
     wrong: np.ndarray
@@ -229,7 +257,10 @@ class _Body:
         self.interior = _narrow_order(np.flatnonzero(inside), first, second)
         count, kept = self.interior.size, self.contact.size + 1
         place = np.full(self.size, count + kept - 1)
-        place[self.interior], place[self.contact] = np.arange(count), count + np.arange(self.contact.size)
+        place[self.interior], place[self.contact] = (
+            np.arange(count),
+            count + np.arange(self.contact.size),
+        )
         low, high = np.sort([place[first], place[second]], axis=0)
         within, beyond = high < count, (low < count) & (high >= count)
         border = np.zeros((count, kept), dtype=EXTENDED)
@@ -243,7 +274,9 @@ class _Body:
         self.floating = not problem.fixed.size
 
     def forces(self, head, tail):
-        """Sums of w (u_i - u_j), and of the terms that they are rounded from, each of shape (ndof,)."""
+        """Sums of w (u_i - u_j), and of the terms that they are rounded from, each of shape
+        (ndof,).
+        """
         first, second, weight, rounding = self.couplings
         difference = (head[first] - head[second]) + (tail[first] - tail[second])
         force, terms = np.zeros_like(head), np.zeros_like(head)
@@ -264,7 +297,9 @@ class _Body:
                 active[np.argmin(reduced[:, 0])] = True
             moved, rate = _equilibrium(self.block, reduced, gap, active)
             after = gap + moved[:, 0]
-            gap_error, force_error = (_SAFETY * np.max(np.abs(v[:, 1:]), axis=1, initial=0) for v in (moved, rate))
+            gap_error, force_error = (
+                _SAFETY * np.max(np.abs(v[:, 1:]), axis=1, initial=0) for v in (moved, rate)
+            )
             wrong = np.where(active, rate[:, 0] < -force_error, after < -gap_error)
             if not wrong.any():
                 break
@@ -275,11 +310,14 @@ class _Body:
         ground = np.zeros((1, columns.shape[1]), dtype=EXTENDED)
         u[self.interior] = self.elimination.extend(inner, np.concatenate([moved, ground]))
         u[self.contact] = moved
-        return _Response(active, wrong, u[:, 0], u[:, 1:], after, rate[:, 0], gap_error, force_error)
+        return _Response(
+            active, wrong, u[:, 0], u[:, 1:], after, rate[:, 0], gap_error, force_error
+        )
 
 
 def _equilibrium(block, loads, gap, active):
-    """Close the gap of the active unknowns; the moves of all, and the forces left on them, for each column of loads.
+    """Close the gap of the active unknowns; the moves of all, and the forces left on them, for each
+    column of loads.
 
     The first column is the load, the others are loads without a gap.
     """
@@ -293,7 +331,11 @@ def _equilibrium(block, loads, gap, active):
     inner = Elimination(first, second, weights[np.ix_(free, free)][first, second], ground[:, None])
     parts, _ = inner.reduce(loads[free] + to_held @ moved[held])
     moved[free] = inner.extend(parts, np.zeros((1, loads.shape[1]), dtype=EXTENDED))
-    rate = (weights[:, :, None] * (moved[:, None] - moved[None])).sum(axis=1) + block[:-1, -1:] * moved - loads
+    rate = (
+        (weights[:, :, None] * (moved[:, None] - moved[None])).sum(axis=1)
+        + block[:-1, -1:] * moved
+        - loads
+    )
     return moved, rate
 
 
@@ -309,7 +351,10 @@ def _narrow_order(nodes, first, second):
     rows, columns = place[first], place[second]
     inside = (rows >= 0) & (columns >= 0)
     rows, columns = rows[inside], columns[inside]
-    pattern = coo_array((np.ones(2 * rows.size), (np.r_[rows, columns], np.r_[columns, rows])), shape=(nodes.size,) * 2)
+    pattern = coo_array(
+        (np.ones(2 * rows.size), (np.r_[rows, columns], np.r_[columns, rows])),
+        shape=(nodes.size,) * 2,
+    )
     return nodes[reverse_cuthill_mckee(pattern.tocsr(), symmetric_mode=True)]
 
 

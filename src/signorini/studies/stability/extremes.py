@@ -1,4 +1,6 @@
-"""Extremes: scales, domains and places far from one, thousands of critical points, contact sets without choice."""
+"""Extremes: scales, domains and places far from one, thousands of critical points, contact sets
+without choice.
+"""
 
 import warnings
 from dataclasses import replace
@@ -28,7 +30,8 @@ def scaling(powers):
     Returns
     -------
     list of dict
-        Per element, route and power: ``different``, numbers that differ in any bit after scaling back.
+        Per element, route and power: ``different``, numbers that differ in any bit after scaling
+        back.
     """
     rows = []
     for element in ELEMENTS:
@@ -38,33 +41,50 @@ def scaling(powers):
                 base = _numbers(problem, coarse, method)
                 for power in powers:
                     scaled = _numbers(_times(problem, power), _times(coarse, power), method)
-                    different = sum(int(np.sum(np.ldexp(a, power) != b)) for a, b in zip(base, scaled, strict=True))
-                    rows.append({"element": element, "method": method, "power": power, "different": different})
+                    different = sum(
+                        int(np.sum(np.ldexp(a, power) != b))
+                        for a, b in zip(base, scaled, strict=True)
+                    )
+                    rows.append(
+                        {
+                            "element": element,
+                            "method": method,
+                            "power": power,
+                            "different": different,
+                        }
+                    )
     return rows
 
 
 def _numbers(problem, coarse, method):
     """u, contact force, and the errors of a coarser solution."""
     solution, coarse_u = solve(problem, method), solve(coarse, method).u
-    found = ReferenceErrors(problem.mesh, problem.element, solution.u).of(coarse.mesh, coarse.element, coarse_u)
+    found = ReferenceErrors(problem.mesh, problem.element, solution.u).of(
+        coarse.mesh, coarse.element, coarse_u
+    )
     return solution.u, solution.multiplier, np.array(list(found.values()))
 
 
 def _times(problem, power):
-    return replace(problem, **{k: np.ldexp(getattr(problem, k), power) for k in ("b", "lower", "fixed_values")})
+    return replace(
+        problem, **{k: np.ldexp(getattr(problem, k), power) for k in ("b", "lower", "fixed_values")}
+    )
 
 
 def domains(sizes, offsets):
-    """The same body in other units of length, and at other places: the same u, or an error that names the reason.
+    """The same body in other units of length, and at other places: the same u, or an error that
+    names the reason.
 
     Returns
     -------
     list of dict
-        Per element, route and ``size`` or ``offset``: ``change``, largest relative change of u; or ``refused``, the
-        first words of the error.
+        Per element, route and ``size`` or ``offset``: ``change``, largest relative change of u; or
+        ``refused``, the first words of the error.
     """
     rows = []
-    cases = [("size", size, size, 0.0) for size in sizes] + [("offset", offset, 1.0, offset) for offset in offsets]
+    cases = [("size", size, size, 0.0) for size in sizes] + [
+        ("offset", offset, 1.0, offset) for offset in offsets
+    ]
     for element in ELEMENTS:
         base = discretize(_statement(), element, _N)
         for method in METHODS:
@@ -94,7 +114,12 @@ def _statement(size=1.0, offset=0.0):
     x, y = (f"(({name} - ({offset!r}))/({size!r}))" for name in "xy")
     data = {name: text.format(x=x, y=y) for name, text in _WAVES.items()} | {"dirichlet": 0}
     data |= {"f": f"({data['f']})/({size!r})**2", "g": f"({data['g']})/({size!r})"}
-    domain = {"origin": [offset, offset], "size": [size, size], "diagonal": "falling", "cells": "per-side"}
+    domain = {
+        "origin": [offset, offset],
+        "size": [size, size],
+        "diagonal": "falling",
+        "cells": "per-side",
+    }
     mapping = {"domain": domain, "boundary": dict(zip(SIDES, _LABELS, strict=True)), "data": data}
     return ProblemStatement.from_mapping(mapping | {"load_quadrature": "exact"})
 
@@ -105,7 +130,8 @@ def many_critical_points(periods, cells=16):
     Returns
     -------
     list of dict
-        Per element: ``periods``, ``contact`` unknowns, ``critical_points`` found, ``iterations``, ``residual``.
+        Per element: ``periods``, ``contact`` unknowns, ``critical_points`` found, ``iterations``,
+        ``residual``.
     """
     rows = []
     for element in ELEMENTS:
@@ -114,8 +140,19 @@ def many_critical_points(periods, cells=16):
             problem = discretize_on(grid, element, _data({"f": "20*sin(2*pi*x)"}))
             solution = solve(problem)
             changes = int(np.sum(solution.active[1:] != solution.active[:-1]))
-            what = {"element": element, "periods": count, "contact": problem.contact.size, "critical_points": changes}
-            rows.append(what | {"iterations": solution.iterations, "residual": kkt_residual(problem, solution.u)[0]})
+            what = {
+                "element": element,
+                "periods": count,
+                "contact": problem.contact.size,
+                "critical_points": changes,
+            }
+            rows.append(
+                what
+                | {
+                    "iterations": solution.iterations,
+                    "residual": kkt_residual(problem, solution.u)[0],
+                }
+            )
     return rows
 
 
@@ -125,11 +162,17 @@ def contact_sets():
     Returns
     -------
     list of dict
-        Per element, route and case: ``contact`` unknowns, those ``active``, those ``expected`` to be, ``iterations``.
+        Per element, route and case: ``contact`` unknowns, those ``active``, those ``expected`` to
+        be, ``iterations``.
     """
     rows = []
     for element in ELEMENTS:
-        for case, data in {"empty": {"f": 1}, "full": {"f": -1}, "zero": {}, "single": {"f": 1}}.items():
+        for case, data in {
+            "empty": {"f": 1},
+            "full": {"f": -1},
+            "zero": {},
+            "single": {"f": 1},
+        }.items():
             problem = _on_grid(element, data)
             size = problem.contact.size
             if case == "single":
@@ -140,12 +183,21 @@ def contact_sets():
                     solution = solve(problem, method)
                     what = {"element": element, "method": method, "case": case, "contact": size}
                     active = int(solution.active.sum())
-                    rows.append(what | {"active": active, "expected": expected, "iterations": solution.iterations})
+                    rows.append(
+                        what
+                        | {
+                            "active": active,
+                            "expected": expected,
+                            "iterations": solution.iterations,
+                        }
+                    )
     return rows
 
 
 def _on_grid(element, data):
-    return discretize_on(Grid(_N, _N, (0.0, 0.0), (1.0, 1.0), "falling", _LABELS), element, _data(data))
+    return discretize_on(
+        Grid(_N, _N, (0.0, 0.0), (1.0, 1.0), "falling", _LABELS), element, _data(data)
+    )
 
 
 def _data(data):
@@ -167,7 +219,8 @@ def applies(problem, method):
 
 
 def walk(examples):
-    """A random walk over the space of scenes, each solution held against BVLS on the condensed problem.
+    """A random walk over the space of scenes, each solution held against BVLS on the condensed
+    problem.
 
     Parameters
     ----------
@@ -176,9 +229,10 @@ def walk(examples):
     Returns
     -------
     list of dict
-        Per problem and route: ``element``, ``dofs``, ``contact``, ``active``, ``condition`` of the condensed matrix,
-        ``difference`` of the two solutions relative to the larger of u and the minimum without contact, ``residual``,
-        ``status``. A refusal counts as the status ``refused``.
+        Per problem and route: ``element``, ``dofs``, ``contact``, ``active``, ``condition`` of the
+        condensed matrix, ``difference`` of the two solutions relative to the larger of u and the
+        minimum without contact, ``residual``, ``status``. A refusal counts as the status
+        ``refused``.
     """
     from hypothesis import HealthCheck, Phase, given, settings
 
@@ -207,7 +261,12 @@ def compare(problem):
     u, condition, size = oracle(problem)
     rows = []
     for method in METHODS:
-        row = {"element": problem.element, "dofs": problem.b.size, "contact": problem.contact.size, "method": method}
+        row = {
+            "element": problem.element,
+            "dofs": problem.b.size,
+            "contact": problem.contact.size,
+            "method": method,
+        }
         row |= {
             "active": None,
             "condition": condition,
@@ -224,8 +283,15 @@ def compare(problem):
             if "does not apply" not in str(error):
                 rows.append(row)
             continue
-        row |= {"active": int(solution.active.sum()), "residual": solution.residual, "status": solution.status}
-        row |= {"stored": np.finfo(float).eps * float(np.max(np.abs(solution.u)) / (np.ptp(solution.u) or np.inf))}
+        row |= {
+            "active": int(solution.active.sum()),
+            "residual": solution.residual,
+            "status": solution.status,
+        }
+        row |= {
+            "stored": np.finfo(float).eps
+            * float(np.max(np.abs(solution.u)) / (np.ptp(solution.u) or np.inf))
+        }
         rows.append(row | {"difference": float(np.max(np.abs(solution.u - u))) / size})
     return rows
 
@@ -242,7 +308,8 @@ def oracle(problem):
     -------
     u : ndarray, shape (ndof,)
     condition : float
-        Of the stiffness matrix on the free unknowns, one of them held where no Dirichlet part holds the body.
+        Of the stiffness matrix on the free unknowns, one of them held where no Dirichlet part holds
+        the body.
     size : float
         Of the terms that u is made of, unit of u.
     """
@@ -258,11 +325,17 @@ def oracle(problem):
     held = problem.free[: -1 if not problem.fixed.size else None]
     K = A[np.ix_(held, held)]
     sizes = (u, np.linalg.solve(K, load[held]), problem.lower)
-    return u, float(np.linalg.cond(K)), max(float(np.max(np.abs(v), initial=0.0)) for v in sizes) or 1.0
+    return (
+        u,
+        float(np.linalg.cond(K)),
+        max(float(np.max(np.abs(v), initial=0.0)) for v in sizes) or 1.0,
+    )
 
 
 def _bounded(S, q, floating):
-    """Minimise w'Sw/2 - q'w over w >= 0; a floating body touches somewhere, so every unknown is held in turn."""
+    """Minimise w'Sw/2 - q'w over w >= 0; a floating body touches somewhere, so every unknown is
+    held in turn.
+    """
     from scipy.optimize import lsq_linear
 
     if floating:
@@ -275,4 +348,6 @@ def _bounded(S, q, floating):
     if not q.size:
         return q
     L = np.linalg.cholesky(S)
-    return lsq_linear(L.T, np.linalg.solve(L, q), (0, np.inf), method="bvls", tol=1e-15, max_iter=1000).x
+    return lsq_linear(
+        L.T, np.linalg.solve(L, q), (0, np.inf), method="bvls", tol=1e-15, max_iter=1000
+    ).x

@@ -26,7 +26,19 @@ CAPTIONS = {
     "solved; hollow: inaccurate; where a mark is missing, the error is zero or the solve refused.",
 }
 
-_TEXTS = ("family", "load", "element", "solver", "status", "variant", "norm", "method", "case", "kind", "refused")
+_TEXTS = (
+    "family",
+    "load",
+    "element",
+    "solver",
+    "status",
+    "variant",
+    "norm",
+    "method",
+    "case",
+    "kind",
+    "refused",
+)
 
 
 def read_parts(folder):
@@ -35,19 +47,26 @@ def read_parts(folder):
     Parameters
     ----------
     folder : str or Path
-        With the folders ``success``, ``digits``, ``floor``, ``extremes``; those that are not there are left out.
+        With the folders ``success``, ``digits``, ``floor``, ``extremes``; those that are not there
+        are left out.
 
     Returns
     -------
     dict
-        ``success`` and ``digits``: rows of all their files; ``floor`` and ``extremes``: rows by file name.
+        ``success`` and ``digits``: rows of all their files; ``floor`` and ``extremes``: rows by
+        file name.
     """
     pieces = {
         part: {path.stem: _read(path) for path in sorted(Path(folder, part).glob("*.csv"))}
         for part in ("success", "digits", "floor", "extremes")
     }
-    pieces["success"] = {family: pieces["success"][family] for family in FAMILIES if family in pieces["success"]}
-    joined = {part: [row for rows in pieces[part].values() for row in rows] for part in ("success", "digits")}
+    pieces["success"] = {
+        family: pieces["success"][family] for family in FAMILIES if family in pieces["success"]
+    }
+    joined = {
+        part: [row for rows in pieces[part].values() for row in rows]
+        for part in ("success", "digits")
+    }
     return pieces | joined
 
 
@@ -62,17 +81,27 @@ def digits_by_cell(rows):
     for key in dict.fromkeys((row["element"], row["family"], row["load"]) for row in ours):
         own = [row for row in ours if (row["element"], row["family"], row["load"]) == key]
         worst = max((row["error"] for row in own if row["error"]), default=0.0)
-        found[key] = (-np.log10(max(worst, np.finfo(float).eps)), np.mean([answered(row) for row in own]))
+        found[key] = (
+            -np.log10(max(worst, np.finfo(float).eps)),
+            np.mean([answered(row) for row in own]),
+        )
     return found
 
 
 def error_pairs(rows):
-    """For u and for the contact forces, the (true error, stated accuracy, whether called solved) that are positive."""
+    """For u and for the contact forces, the (true error, stated accuracy, whether called solved)
+    that are positive.
+    """
     ours = [row for row in rows if row["solver"].startswith("ours/") and row["claimed"]]
-    names = {"u": ("error", "accuracy"), "contact forces": ("multiplier_error", "multiplier_accuracy")}
+    names = {
+        "u": ("error", "accuracy"),
+        "contact forces": ("multiplier_error", "multiplier_accuracy"),
+    }
     return {
         title: [
-            (*(row[key] for key in keys), row["status"] == "solved") for row in ours if min(row[k] for k in keys) > 0
+            (*(row[key] for key in keys), row["status"] == "solved")
+            for row in ours
+            if min(row[k] for k in keys) > 0
         ]
         for title, keys in names.items()
     }
@@ -88,14 +117,21 @@ def shares(rows, column):
 def titles(rows):
     """Solver -> its name in figures and tables, ours first."""
     solvers = dict.fromkeys(row["solver"] for row in rows)
-    return {solver: title(solver) for solver in sorted(solvers, key=lambda name: not name.startswith("ours"))}
+    return {
+        solver: title(solver)
+        for solver in sorted(solvers, key=lambda name: not name.startswith("ours"))
+    }
 
 
 def title(solver):
     """The name of a solver in figures and tables."""
     if solver == "ours":
         return "signorini"
-    return f"signorini {solver.removeprefix('ours/')}" if solver.startswith("ours/") else RIVALS[solver].title
+    return (
+        f"signorini {solver.removeprefix('ours/')}"
+        if solver.startswith("ours/")
+        else RIVALS[solver].title
+    )
 
 
 def _solved(row):

@@ -1,7 +1,7 @@
 """Generated problems: families of bodies times kinds of load times elements times seeds.
 
-A body is a mesh with labels, and a diffusion coefficient. Each problem has a generator of its own, seeded by what it
-is, so that any of them can be made again alone.
+A body is a mesh with labels, and a diffusion coefficient. Each problem has a generator of its own,
+seeded by what it is, so that any of them can be made again alone.
 """
 
 from dataclasses import dataclass, replace
@@ -61,7 +61,9 @@ def instance(family, load, element, seed):
     mesh, coefficient = body if isinstance(body, tuple) else (body, 1)
     height = float(np.ptp(mesh.p[1]) / np.ptp(mesh.p[0]))
     rng = np.random.default_rng([*key, list(LOADS).index(load), list(ELEMENTS).index(element)])
-    return Instance(family, load, element, seed, height, LOADS[load](rng, mesh, element, coefficient))
+    return Instance(
+        family, load, element, seed, height, LOADS[load](rng, mesh, element, coefficient)
+    )
 
 
 # Kinds of load: (rng, mesh, element, coefficient) to a problem.
@@ -76,13 +78,22 @@ def _white(rng, mesh, element, coefficient):
 def _smooth(rng, mesh, element, coefficient):
     """Waves as load, flux and Dirichlet values."""
     height = float(np.ptp(mesh.p[1]))
-    data = {"f": wave(rng, height), "g": wave(rng, height), "dirichlet": f"{height**2!r}*({wave(rng, height)})"}
-    data |= {"obstacle": -1e6, "coefficient": coefficient}  # below the Dirichlet values; the one asked for comes next
+    data = {
+        "f": wave(rng, height),
+        "g": wave(rng, height),
+        "dirichlet": f"{height**2!r}*({wave(rng, height)})",
+    }
+    data |= {
+        "obstacle": -1e6,
+        "coefficient": coefficient,
+    }  # below the Dirichlet values; the one asked for comes next
     return _with_obstacle(rng, discretize_on(mesh, element, _statement(data)))
 
 
 def _degenerate(rng, mesh, element, coefficient):
-    """The solution is chosen, with neither gap nor force at three tenths or nine tenths of the contact unknowns."""
+    """The solution is chosen, with neither gap nor force at three tenths or nine tenths of the
+    contact unknowns.
+    """
     problem = discretize_on(mesh, element, _statement({"coefficient": coefficient}))
     c, biactive = problem.contact, rng.random(problem.contact.size) < rng.choice([0.3, 0.9])
     u = rng.standard_normal(problem.b.size)
@@ -97,7 +108,8 @@ def _degenerate(rng, mesh, element, coefficient):
 
 
 def _biactive(rng, mesh, element, coefficient):
-    """No gap and no force on the whole contact part, or on a middle piece of it, for the exact solution.
+    """No gap and no force on the whole contact part, or on a middle piece of it, for the exact
+    solution.
 
     With a coefficient, for the discrete solution: the obstacle is the solution without contact.
     """
@@ -110,7 +122,9 @@ def _biactive(rng, mesh, element, coefficient):
         truth = {"family": "biactive", "parameters": {"left": float(left), "right": float(right)}}
         return discretize_on(mesh, element, _statement(None, truth))
     c = float(10.0 ** rng.uniform(-3, 3))
-    return discretize_on(mesh, element, _statement({"f": repr(c), "obstacle": repr(c * height**2 / 2)}))
+    return discretize_on(
+        mesh, element, _statement({"f": repr(c), "obstacle": repr(c * height**2 / 2)})
+    )
 
 
 def _tiny(rng, mesh, element, coefficient):
@@ -122,11 +136,15 @@ def _huge(rng, mesh, element, coefficient):
 
 
 def _constant(rng, mesh, element, coefficient):
-    """The smooth load's problem with a constant of up to 1e12 times its size added to obstacle and Dirichlet values."""
+    """The smooth load's problem with a constant of up to 1e12 times its size added to obstacle and
+    Dirichlet values.
+    """
     problem = _smooth(rng, mesh, element, coefficient)
     size = np.max(np.abs(np.concatenate([problem.lower, problem.fixed_values])))
     constant = one_of(rng, (-1.0, 1.0)) * 10.0 ** rng.uniform(0, 12) * size
-    return replace(problem, lower=problem.lower + constant, fixed_values=problem.fixed_values + constant)
+    return replace(
+        problem, lower=problem.lower + constant, fixed_values=problem.fixed_values + constant
+    )
 
 
 LOADS = {
@@ -144,14 +162,24 @@ def wave(rng, height=1.0):
     """A formula: a constant and two plane waves, of a few periods over a rectangle of width 1."""
     terms = [f"{rng.normal():.3f}"]
     for _ in range(2):
-        a, k, l, phase = rng.normal(), rng.uniform(-9, 9), rng.uniform(-9, 9) / height, rng.uniform(0, 6)
+        a, k, l, phase = (
+            rng.normal(),
+            rng.uniform(-9, 9),
+            rng.uniform(-9, 9) / height,
+            rng.uniform(0, 6),
+        )
         terms.append(f"({a:.3f})*sin(({k:.3f})*x + ({l:.6g})*y + {phase:.3f})")
     return " + ".join(terms)
 
 
 def _statement(data, truth=None):
     zero = {"f": 0, "g": 0, "dirichlet": 0, "obstacle": 0}
-    mapping = {"domain": {}, "boundary": {}, "data": {} if truth else zero | data, "load_quadrature": "midpoints"}
+    mapping = {
+        "domain": {},
+        "boundary": {},
+        "data": {} if truth else zero | data,
+        "load_quadrature": "midpoints",
+    }
     return ProblemStatement.from_mapping(mapping | ({"truth": truth} if truth else {}))
 
 
@@ -159,7 +187,11 @@ def _with_obstacle(rng, problem):
     """An obstacle of the size of the solution without contact: none, a wave, or normal numbers."""
     u = _without_contact(problem)
     x, _ = find_element(problem.element).nodes(problem.mesh, problem.contact)
-    shapes = (np.zeros(x.size), np.sin(rng.uniform(1, 20) * x + rng.uniform(0, 6)), rng.standard_normal(x.size))
+    shapes = (
+        np.zeros(x.size),
+        np.sin(rng.uniform(1, 20) * x + rng.uniform(0, 6)),
+        rng.standard_normal(x.size),
+    )
     return replace(problem, lower=rng.uniform(0.1, 1.0) * np.abs(u).max() * shapes[rng.integers(3)])
 
 

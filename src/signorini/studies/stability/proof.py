@@ -14,9 +14,12 @@ UNDERESTIMATE, OVERESTIMATE = 10.0, 1e3  # by which a stated accuracy may miss t
 FEW = 4  # roundings of what u and forces are summed from: a smaller error counts as so much
 # An estimate may be a thousand times the error, so from here on "inaccurate" may be due.
 INACCURATE_FROM = ERROR / OVERESTIMATE
-# An error that double precision makes likely, beyond which no digit is safe, and a solve may be refused.
+# An error that double precision makes likely, beyond which no digit is safe, and a solve may be
+# refused.
 REFUSED_FROM = 1e-2
-NEEDLESS = 1e3  # by which a sign exceeds its error in double precision where it is undecided without need
+NEEDLESS = (
+    1e3  # by which a sign exceeds its error in double precision where it is undecided without need
+)
 _LIMITS = ("limit", "multiplier_limit", "floor", "multiplier_floor", "rounded_residual")
 PROOF = (
     *("status", "refused", "accuracy", "multiplier_accuracy", "undecided"),
@@ -38,16 +41,21 @@ def proofs(problem):
     Returns
     -------
     list of dict
-        Per solve ``solver``, ``ours`` or ``ours/<method>``; ``claimed``, whether it returned an answer; ``residual``,
-        recomputed; ``seconds``, ``iterations``; and
+        Per solve ``solver``, ``ours`` or ``ours/<method>``; ``claimed``, whether it returned an
+        answer; ``residual``, recomputed; ``seconds``, ``iterations``; and
 
-        - ``status``, ``accuracy``, ``multiplier_accuracy`` and ``undecided`` (a number), as the solution states them;
-          a solve that raises an error has the status ``refused``, and its first words as ``refused``;
-        - against the solution in extended precision, ``error``, ``multiplier_error`` and ``wrong_side``, the number of
-          contact dofs decided for the wrong side; ``needless``, the number of those undecided without need; the first
-          three are not a number where even extended precision is too short;
-        - of double precision, ``limit`` and ``multiplier_limit``, the errors that it makes likely, see `Judgement`;
-          ``floor`` and ``multiplier_floor``, `FEW` roundings; ``rounded_residual``, that of the truth rounded to it.
+        - ``status``, ``accuracy``, ``multiplier_accuracy`` and ``undecided`` (a number), as the
+        solution states them;
+          a solve that raises an error has the status ``refused``, and its first words as
+          ``refused``;
+        - against the solution in extended precision, ``error``, ``multiplier_error`` and
+        ``wrong_side``, the number of
+          contact dofs decided for the wrong side; ``needless``, the number of those undecided
+          without need; the first three are not a number where even extended precision is too short;
+        - of double precision, ``limit`` and ``multiplier_limit``, the errors that it makes likely,
+        see `Judgement`;
+          ``floor`` and ``multiplier_floor``, `FEW` roundings; ``rounded_residual``, that of the
+          truth rounded to it.
     """
     problem.A  # noqa: B018 (assembled before the clock starts, as for the rivals)
     rows, truth = [], None
@@ -61,7 +69,9 @@ def proofs(problem):
         if "does not apply" not in refused:
             truth = truth or _truth(problem, solution)
             name = "ours" if method == "auto" else f"ours/{method}"
-            rows.append({"solver": name, "seconds": seconds} | proof(problem, solution, refused, truth))
+            rows.append(
+                {"solver": name, "seconds": seconds} | proof(problem, solution, refused, truth)
+            )
     return rows
 
 
@@ -128,32 +138,38 @@ def _limits(problem, truth, decided):
 
 
 def answered(row):
-    """Whether a row is solved; or called inaccurate, or refused, where double precision can do no better.
+    """Whether a row is solved; or called inaccurate, or refused, where double precision can do no
+    better.
 
-    Of u and of the contact forces, those alone may be inaccurate that are so in double precision, or that undecided
-    contact dofs might move or bear; and the residual may be what rounding to doubles makes of the truth's, or
-    what undecided contact dofs make of it.
+    Of u and of the contact forces, those alone may be inaccurate that are so in double precision,
+    or that undecided contact dofs might move or bear; and the residual may be what rounding to
+    doubles makes of the truth's, or what undecided contact dofs make of it.
     """
     if row["status"] == "refused":
         return bool(row["limit"] > REFUSED_FROM)
     if row["status"] == "solved":
         return bool(row["residual"] <= RESIDUAL)
     needed = row["undecided"] or all(
-        row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM for which in ("", "multiplier_")
+        row[f"{which}accuracy"] <= ERROR or row[f"{which}limit"] > INACCURATE_FROM
+        for which in ("", "multiplier_")
     )
     told = row["accuracy"] + row["multiplier_accuracy"] if row["undecided"] else 0.0
     return bool(needed and row["residual"] <= max(RESIDUAL, FEW * row["rounded_residual"], told))
 
 
 def right(row):
-    """Whether u, multiplier and contact set are those of a solution called solved; not where there is no truth."""
+    """Whether u, multiplier and contact set are those of a solution called solved; not where there
+    is no truth.
+    """
     return row["error"] <= ERROR and row["multiplier_error"] <= ERROR and row["wrong_side"] == 0
 
 
 def estimated(row, which=""):
-    """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand times the error.
+    """Whether the stated accuracy of u (or ``multiplier_``) is at least a tenth, at most a thousand
+    times the error.
 
-    With undecided contact dofs it has no upper bound: it tells what they could do on the other side, too.
+    With undecided contact dofs it has no upper bound: it tells what they could do on the other
+    side, too.
     """
     accuracy, error, floor = (row[f"{which}{name}"] for name in ("accuracy", "error", "floor"))
     close = row["undecided"] or accuracy <= OVERESTIMATE * max(error, floor)
@@ -171,10 +187,11 @@ def statuses(rows):
     Returns
     -------
     list of dict
-        Per family and element: ``solutions``; ``solved``, ``inaccurate`` and ``refused``, how many are called so;
-        ``solved_error``, ``solved_multiplier_error`` and ``inaccurate_error``, the largest true errors among them;
-        ``wrong``, solved but not `right`; ``needed``, inaccurate with an error above 1e-10; ``unneeded``, not
-        `answered`; ``wrong_side``, ``undecided`` and ``needless``, contact dofs of all answers.
+        Per family and element: ``solutions``; ``solved``, ``inaccurate`` and ``refused``, how many
+        are called so; ``solved_error``, ``solved_multiplier_error`` and ``inaccurate_error``, the
+        largest true errors among them; ``wrong``, solved but not `right`; ``needed``, inaccurate
+        with an error above 1e-10; ``unneeded``, not `answered`; ``wrong_side``, ``undecided`` and
+        ``needless``, contact dofs of all answers.
     """
     return [_status(family, element, own) for (family, element), own in _groups(rows).items()]
 
@@ -185,9 +202,9 @@ def estimates(rows):
     Returns
     -------
     list of dict
-        Per family and element, for u and, under the prefix ``multiplier_``, for the multiplier: ``median``, the median
-        of accuracy over error; ``least`` and ``most``, its extremes, an error below the floor counting as so much in
-        the last; ``missed``, answers not `estimated`.
+        Per family and element, for u and, under the prefix ``multiplier_``, for the multiplier:
+        ``median``, the median of accuracy over error; ``least`` and ``most``, its extremes, an
+        error below the floor counting as so much in the last; ``missed``, answers not `estimated`.
     """
     found = []
     for (family, element), own in _groups(rows).items():
@@ -207,7 +224,10 @@ def _groups(rows):
 
 
 def _status(family, element, own):
-    by_name = {name: [row for row in own if row["status"] == name] for name in ("solved", "inaccurate", "refused")}
+    by_name = {
+        name: [row for row in own if row["status"] == name]
+        for name in ("solved", "inaccurate", "refused")
+    }
     solved, inaccurate, refused = by_name.values()
     answers = solved + inaccurate
     return {
@@ -220,16 +240,22 @@ def _status(family, element, own):
         "wrong": sum(not right(row) for row in solved),
         "inaccurate": len(inaccurate),
         "inaccurate_error": max((row["error"] for row in inaccurate), default=None),
-        "needed": sum(not (row["error"] <= ERROR and row["multiplier_error"] <= ERROR) for row in inaccurate),
+        "needed": sum(
+            not (row["error"] <= ERROR and row["multiplier_error"] <= ERROR) for row in inaccurate
+        ),
         "refused": len(refused),
         "unneeded": sum(not answered(row) for row in own),
-        **{name: sum(row[name] for row in answers) for name in ("wrong_side", "undecided", "needless")},
+        **{
+            name: sum(row[name] for row in answers)
+            for name in ("wrong_side", "undecided", "needless")
+        },
     }
 
 
 def _ratios(answers, which):
     stated, error, floor = (
-        np.array([row[f"{which}{name}"] for row in answers]) for name in ("accuracy", "error", "floor")
+        np.array([row[f"{which}{name}"] for row in answers])
+        for name in ("accuracy", "error", "floor")
     )
     exact = stated[error > 0] / error[error > 0]
     return {

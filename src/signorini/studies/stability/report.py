@@ -40,7 +40,11 @@ class Report:
     """
 
     def __init__(self, parts, time_limit, seeds=0):
-        self.success, self.floor, self.extremes = parts["success"], parts["floor"], parts["extremes"]
+        self.success, self.floor, self.extremes = (
+            parts["success"],
+            parts["floor"],
+            parts["extremes"],
+        )
         self.time_limit, self.seeds = time_limit, seeds
         self.solvers = summary(self.success, time_limit)
         self.statuses, self.estimates = statuses(self.success), estimates(self.success)
@@ -49,7 +53,8 @@ class Report:
         rows = [row for name, piece in self.floor.items() if "-" in name for row in piece]
         self.crossings = crossings(rows)
         self.finest = {
-            family: max(row["n"] for row in rows if row["family"] == family) for family in ("smooth", "patch")
+            family: max(row["n"] for row in rows if row["family"] == family)
+            for family in ("smooth", "patch")
         }
 
     def claims(self):
@@ -68,7 +73,10 @@ class Report:
         }
 
     def _claims(self):
-        rows = [(row["claim"], row["measured"], row["limit"], "yes" if row["met"] else "NO") for row in self.claims()]
+        rows = [
+            (row["claim"], row["measured"], row["limit"], "yes" if row["met"] else "NO")
+            for row in self.claims()
+        ]
         header = ("claim", "measured", "limit", "met")
         return Table(header, rows, "What is promised, and what was measured.", sentences=True)
 
@@ -79,8 +87,20 @@ class Report:
             counts = [row["unclaimed"], row["wrong"], seconds(row["seconds"])]
             steps = f"{row['median_iterations']:.0f}, {row['most_iterations']}"
             rows.append((title(row["solver"]), row["problems"], *share, *counts, steps))
-        header = ("solver", "problems", "1e-6", "1e-9", "ordinary", "unclaimed", "wrong", "time", "iterations")
-        slow = ", ".join(RIVALS[name].title for name in SLOW if any(r["solver"] == name for r in self.solvers))
+        header = (
+            "solver",
+            "problems",
+            "1e-6",
+            "1e-9",
+            "ordinary",
+            "unclaimed",
+            "wrong",
+            "time",
+            "iterations",
+        )
+        slow = ", ".join(
+            RIVALS[name].title for name in SLOW if any(r["solver"] == name for r in self.solvers)
+        )
         absent = ", ".join(f"{r.title} ({r.install})" for r in RIVALS.values() if not r.available())
         caption = (
             "Success on generated problems: claimed solved, with a recomputed KKT residual of at most 1e-6 and 1e-9; "
@@ -108,14 +128,47 @@ class Report:
         for row in self.statuses:
             keys = ("solved_error", "solved_multiplier_error", "inaccurate_error")
             u, force, other = (_power(row[key]) if row[key] else "--" for key in keys)
-            named = (row["solved"], u, force, row["wrong"], row["inaccurate"], other, row["needed"], row["refused"])
-            counts = (row["unneeded"], f"{row['wrong_side']:g}", f"{row['undecided']:g}", f"{row['needless']:g}")
+            named = (
+                row["solved"],
+                u,
+                force,
+                row["wrong"],
+                row["inaccurate"],
+                other,
+                row["needed"],
+                row["refused"],
+            )
+            counts = (
+                row["unneeded"],
+                f"{row['wrong_side']:g}",
+                f"{row['undecided']:g}",
+                f"{row['needless']:g}",
+            )
             rows.append((row["family"], row["element"], *named, *counts))
         header = (
-            *("bodies", "", "number", "u", "force", "wrong", "number", "u", "needed", "number", "unneeded"),
+            *(
+                "bodies",
+                "",
+                "number",
+                "u",
+                "force",
+                "wrong",
+                "number",
+                "u",
+                "needed",
+                "number",
+                "unneeded",
+            ),
             *("wrong", "open", "needless"),
         )
-        groups = (("", 2), ("solved", 4), ("inaccurate", 3), ("refused", 1), ("", 1), ("contact unknowns", 3))
+        groups = (
+            ("", 2),
+            ("solved", 4),
+            ("inaccurate", 3),
+            ("refused", 1),
+            ("", 1),
+            ("contact unknowns", 3),
+        )
         caption = (
             "Statuses held against solutions in extended precision (80 bits), all routes. Solved: how many "
             "are called so, their largest error of u relative to its variation, of the contact forces "
@@ -149,13 +202,23 @@ class Report:
     def _digits(self):
         cells = {(row["element"], row["norm"], row["n"]): row["digits"] for row in self.digits}
         columns = list(dict.fromkeys((norm, element) for element, norm, _ in cells))
-        columns.sort(key=lambda column: (list(NORMS).index(column[0]), list(ELEMENTS).index(column[1])))
+        columns.sort(
+            key=lambda column: (list(NORMS).index(column[0]), list(ELEMENTS).index(column[1]))
+        )
         rows = [
-            ("slope" if n == 0 else f"{n:g}", *(f"{cells[element, norm, n]:.1f}" for norm, element in columns))
+            (
+                "slope" if n == 0 else f"{n:g}",
+                *(f"{cells[element, norm, n]:.1f}" for norm, element in columns),
+            )
             for n in sorted({n for *_, n in cells}, key=lambda n: (n == 0, n))
         ]
-        header = ("N", *(f"{NORMS[norm]} {'CF' if element == 'P1' else 'NCF'}" for norm, element in columns))
-        variants = [key.removeprefix("digits_") for key in self.digits[0] if key.startswith("digits_")]
+        header = (
+            "N",
+            *(f"{NORMS[norm]} {'CF' if element == 'P1' else 'NCF'}" for norm, element in columns),
+        )
+        variants = [
+            key.removeprefix("digits_") for key in self.digits[0] if key.startswith("digits_")
+        ]
         caption = (
             "Digits of Table 5.1 that one can trust: -log10 of the largest relative change of each number, "
             f"at most {-np.log10(EPS):.1f}, over all of: {', '.join(variants)}. Renumbered: vertices, triangles and "
@@ -177,9 +240,13 @@ class Report:
             for row in self.crossings
         ]
         conditions, stretched = self.floor["conditions"], self.floor["stretching"]
-        power = ", ".join(f"{name} {-slope:.2f}" for name, (slope, _) in growth(conditions, "condition").items())
+        power = ", ".join(
+            f"{name} {-slope:.2f}" for name, (slope, _) in growth(conditions, "condition").items()
+        )
         flat = [row for row in stretched if row["aspect"] <= 1e-2]
-        aspect = ", ".join(f"{name} {slope:.2f}" for name, (slope, _) in growth(flat, "error", by="aspect").items())
+        aspect = ", ".join(
+            f"{name} {slope:.2f}" for name, (slope, _) in growth(flat, "error", by="aspect").items()
+        )
         caption = (
             "Where accuracy ends, by the route taken unasked: the order of the error of the family smooth; round-off, "
             f"as the error of the family patch at h = 1/{self.finest['patch']:g}, and the power of 1/h with which it "
@@ -192,7 +259,9 @@ class Report:
     def markdown(self, figures):
         """The page, with its pictures beside it."""
         parts = ["# Stability", self.answer(), _INTRODUCTION + self._seeds()]
-        pictures = [f"![{caption}](stability_{name}.png)\n\n{caption}" for name, caption in figures.items()]
+        pictures = [
+            f"![{caption}](stability_{name}.png)\n\n{caption}" for name, caption in figures.items()
+        ]
         tables = list(self.tables().values())
         parts += [markdown_table(tables[0]), markdown_table(tables[1]), *pictures[:2]]
         parts += [markdown_table(table) for table in tables[2:4]] + pictures[2:3]
@@ -202,11 +271,18 @@ class Report:
     def tex(self, figures):
         """The fragment for the paper's appendix."""
         floats = [
-            tex_figure(f"stability_{name}", tex(caption), f"stability-{name}") for name, caption in figures.items()
+            tex_figure(f"stability_{name}", tex(caption), f"stability-{name}")
+            for name, caption in figures.items()
         ]
         tables = [tex_table(table, f"stability-{name}") for name, table in self.tables().items()]
-        texts = [part for text in (self.answer(), _INTRODUCTION + self._seeds()) for part in (tex(text), "")]
-        return "\n".join([r"\section{Stability}\label{sec:stability}", "", *texts, *tables, *floats])
+        texts = [
+            part
+            for text in (self.answer(), _INTRODUCTION + self._seeds())
+            for part in (tex(text), "")
+        ]
+        return "\n".join(
+            [r"\section{Stability}\label{sec:stability}", "", *texts, *tables, *floats]
+        )
 
     def answer(self):
         """What was found, in three sentences."""

@@ -44,8 +44,8 @@ def errors(family, element, levels, method="auto"):
     Returns
     -------
     list of dict
-        Per level: ``family``, ``element``, ``n``, ``method``, ``dofs``, ``l2``, ``h1_semi``, ``residual``,
-        ``accuracy``, ``seconds`` of the solve.
+        Per level: ``family``, ``element``, ``n``, ``method``, ``dofs``, ``l2``, ``h1_semi``,
+        ``residual``, ``accuracy``, ``seconds`` of the solve.
     """
     statement, measured = truth_statement(family), ExactErrors(exact_family(family), NORMS)
     rows = []
@@ -72,7 +72,8 @@ def errors(family, element, levels, method="auto"):
 
 
 def conditions(levels):
-    """Condition numbers of the stiffness matrix on the free unknowns, on uniform grids of the unit square.
+    """Condition numbers of the stiffness matrix on the free unknowns, on uniform grids of the unit
+    square.
 
     Returns
     -------
@@ -83,7 +84,9 @@ def conditions(levels):
     for element in ELEMENTS:
         for n in levels:
             grid = Grid(n, n, (0.0, 0.0), (1.0, 1.0), "falling", _LABELS)
-            rows.append({"element": element, "n": n} | _extremes(discretize_on(grid, element, _patch(1.0))))
+            rows.append(
+                {"element": element, "n": n} | _extremes(discretize_on(grid, element, _patch(1.0)))
+            )
     return rows
 
 
@@ -93,8 +96,9 @@ def stretching(aspects, n=8, seed=0):
     Returns
     -------
     list of dict
-        ``element``, ``aspect``; ``error``, the largest at a degree of freedom; ``accuracy``, as the solution states
-        it; ``status``; ``condition``. Where the solve is refused, status says so and error and accuracy are empty.
+        ``element``, ``aspect``; ``error``, the largest at a degree of freedom; ``accuracy``, as the
+        solution states it; ``status``; ``condition``. Where the solve is refused, status says so
+        and error and accuracy are empty.
     """
     rows = []
     for element in ELEMENTS:
@@ -102,7 +106,13 @@ def stretching(aspects, n=8, seed=0):
             mesh = labelled(pressed_flat(n, aspect, seed), dict(zip(SIDES, _LABELS, strict=True)))
             problem = discretize_on(mesh, element, _patch(1.0))
             _, y = find_element(element).nodes(mesh, np.arange(problem.b.size))
-            what = {"element": element, "aspect": aspect, "error": None, "accuracy": None, "status": "refused"}
+            what = {
+                "element": element,
+                "aspect": aspect,
+                "error": None,
+                "accuracy": None,
+                "status": "refused",
+            }
             try:
                 solution = solve(problem, "direct")
                 error = float(np.max(np.abs(solution.u - (1.0 - y / aspect))))
@@ -115,7 +125,9 @@ def stretching(aspects, n=8, seed=0):
 
 def _patch(obstacle):
     zero = {"f": 0, "g": 0, "dirichlet": 0, "obstacle": obstacle}
-    return ProblemStatement.from_mapping({"domain": {}, "boundary": {}, "data": zero, "load_quadrature": "exact"})
+    return ProblemStatement.from_mapping(
+        {"domain": {}, "boundary": {}, "data": zero, "load_quadrature": "exact"}
+    )
 
 
 def _extremes(problem):
@@ -134,7 +146,8 @@ def _extremes(problem):
 
 
 def growth(rows, column, by="n"):
-    """Least-squares exponent and factor of ``column = factor * by**exponent``, per element that is not zero.
+    """Least-squares exponent and factor of ``column = factor * by**exponent``, per element that is
+    not zero.
 
     Returns
     -------
@@ -152,7 +165,8 @@ def growth(rows, column, by="n"):
 
 
 def crossings(rows):
-    """Where the smooth family's error would meet the patch family's, which is round-off alone, if both went on so.
+    """Where the smooth family's error would meet the patch family's, which is round-off alone, if
+    both went on so.
 
     Parameters
     ----------
@@ -162,15 +176,20 @@ def crossings(rows):
     Returns
     -------
     list of dict
-        Per ``element`` and ``norm``: ``order`` and ``factor`` of the error, ``floor`` on the finest level, the growth
-        ``floor_order`` of the floor, and ``h``, the mesh width where they would meet; both None for a floor of zero.
+        Per ``element`` and ``norm``: ``order`` and ``factor`` of the error, ``floor`` on the finest
+        level, the growth ``floor_order`` of the floor, and ``h``, the mesh width where they would
+        meet; both None for a floor of zero.
     """
     found = []
     for element in sorted({row["element"] for row in rows}, key=list(ELEMENTS).index):
         for norm in NORMS:
             smooth, floor = (
                 sorted(
-                    ((row["n"], row[norm]) for row in rows if (row["family"], row["element"]) == (family, element)),
+                    (
+                        (row["n"], row[norm])
+                        for row in rows
+                        if (row["family"], row["element"]) == (family, element)
+                    ),
                 )
                 for family in FAMILIES
             )

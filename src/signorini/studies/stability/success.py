@@ -1,4 +1,6 @@
-"""Success rates on generated problems in the manner of qpbenchmark: ours on every route that applies, and rivals."""
+"""Success rates on generated problems in the manner of qpbenchmark: ours on every route that
+applies, and rivals.
+"""
 
 import importlib
 import os
@@ -16,8 +18,22 @@ TOLERANCES = (1e-6, 1e-9)
 SHIFT = 0.01  # seconds; of the shifted geometric mean
 _SCIPY = ("scipy.linalg", "scipy.optimize", "scipy.sparse.linalg")
 _PATIENCE = 4  # time limits after which a rival that keeps none is ended
-SLOW = ("pyamg", "ngsolve", "proxqp", "highs", "lbfgsb", "petsc-vi", "petsc-tao")  # rivals that get fewer problems
-HARD = ("graded", "inclusions", "layers", "oscillating", "constant")  # families and loads of which all rivals do
+SLOW = (
+    "pyamg",
+    "ngsolve",
+    "proxqp",
+    "highs",
+    "lbfgsb",
+    "petsc-vi",
+    "petsc-tao",
+)  # rivals that get fewer problems
+HARD = (
+    "graded",
+    "inclusions",
+    "layers",
+    "oscillating",
+    "constant",
+)  # families and loads of which all rivals do
 
 
 def measure(family, seeds, few, time_limit):
@@ -30,16 +46,17 @@ def measure(family, seeds, few, time_limit):
     seeds : sequence of int
         Of the problems of every kind of load and element.
     few : int
-        How many of them the rivals of `SLOW` get; of a family of `HARD` and a load of it, all rivals.
+        How many of them the rivals of `SLOW` get; of a family of `HARD` and a load of it, all
+        rivals.
     time_limit : float
         Of a rival on a problem, in seconds.
 
     Returns
     -------
     list of dict
-        A row per problem and solver. Of ours, a route is named ``ours/<method>``, and the one that is taken unasked
-        ``ours``. ``claimed``: the solver returned an answer and called it one. ``busy``: the machine's load average.
-        Ours alone have what `stability_proof.proofs` tells.
+        A row per problem and solver. Of ours, a route is named ``ours/<method>``, and the one that
+        is taken unasked ``ours``. ``claimed``: the solver returned an answer and called it one.
+        ``busy``: the machine's load average. Ours alone have what `stability_proof.proofs` tells.
     """
     chosen = _prepared()
     arena, rows = Arena(_theirs, _PATIENCE * time_limit), []
@@ -49,11 +66,18 @@ def measure(family, seeds, few, time_limit):
                 key = (family, load, element, seed)
                 made = instance(*key)
                 what = dict(zip(("family", "load", "element", "seed"), key, strict=True))
-                what |= {"dofs": made.problem.b.size, "aspect": made.aspect, "busy": os.getloadavg()[0]}
+                what |= {
+                    "dofs": made.problem.b.size,
+                    "aspect": made.aspect,
+                    "busy": os.getloadavg()[0],
+                }
                 rows += [what | _row(**found) for found in proofs(made.problem)]
                 hard = family in HARD or load in HARD
                 asked = [name for name in chosen if number < few or not (hard or name in SLOW)]
-                rows += [what | (arena.ask(key, name, time_limit) or _late(name, time_limit)) for name in asked]
+                rows += [
+                    what | (arena.ask(key, name, time_limit) or _late(name, time_limit))
+                    for name in asked
+                ]
     arena.close()
     return rows
 
@@ -96,14 +120,17 @@ def summary(rows, time_limit):
     Returns
     -------
     list of dict
-        Per solver: ``problems``; ``solved_1e-06`` and ``solved_1e-09``, shares claimed solved with a residual of at
-        most that; ``ordinary_1e-09``, the same without the loads tiny and huge; ``unclaimed``, problems with a
-        residual of at most 1e-9 that the solver reports as failed; ``wrong``, problems claimed solved with a residual
-        above 1e-6; ``seconds``, shifted geometric mean; ``median_iterations`` and ``most_iterations``.
+        Per solver: ``problems``; ``solved_1e-06`` and ``solved_1e-09``, shares claimed solved with
+        a residual of at most that; ``ordinary_1e-09``, the same without the loads tiny and huge;
+        ``unclaimed``, problems with a residual of at most 1e-9 that the solver reports as failed;
+        ``wrong``, problems claimed solved with a residual above 1e-6; ``seconds``, shifted
+        geometric mean; ``median_iterations`` and ``most_iterations``.
     """
     return [
         {"solver": solver} | _achieved([row for row in rows if row["solver"] == solver], time_limit)
-        for solver in sorted({row["solver"]: 0 for row in rows}, key=lambda name: not name.startswith("ours"))
+        for solver in sorted(
+            {row["solver"]: 0 for row in rows}, key=lambda name: not name.startswith("ours")
+        )
     ]
 
 

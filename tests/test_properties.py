@@ -26,7 +26,7 @@ from signorini.mesh.grid import Grid
 from signorini.mesh.imported import import_mesh
 from signorini.mesh.parse import parse
 from signorini.mesh.patterns import alternating
-from signorini.scene.scene import load_scene
+from signorini.scene.read import load_scene
 from signorini.solvers import solve
 from signorini.solvers.fourier import obstruction
 

@@ -17,7 +17,7 @@ __version__ = "0.1.0"
 _ROOMS = {
     "SignoriniError": "exceptions",
     "Scene": "scene.scene",
-    "load_scene": "scene.scene",
+    "load_scene": "scene.read",
     "Problem": "fem.problem",
     "discretize": "fem.problem",
     "Solution": "solvers",

@@ -16,7 +16,7 @@ from signorini.fem.problem import discretize
 from signorini.mesh.domain import make_domain
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
-from signorini.scene.scene import load_scene
+from signorini.scene.read import load_scene
 from signorini.scene.statement import ProblemStatement
 
 SCENES = sorted((Path(__file__).parents[2] / "config/scenes").glob("*.yaml"))

@@ -11,7 +11,7 @@ from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.boundary import SIDES
 from signorini.mesh.domain import make_domain, read_domain, write_domain
 from signorini.mesh.patterns import alternating
-from signorini.scene.scene import load_scene
+from signorini.scene.read import load_scene
 from signorini.solvers import solve
 
 meshio = pytest.importorskip("meshio")

@@ -133,7 +133,7 @@ def test_levels_that_fit_are_judged_without_numpy():
     code = f"""
 import sys
 from signorini.scene.memory_check import check_level
-from signorini.scene.scene import load_scene
+from signorini.scene.read import load_scene
 check_level(load_scene({scene!r}).problem, "CR", 512, "auto")
 assert not {{"numpy", "signorini.mesh.domain", "signorini.fem.problem"}} & set(sys.modules)
 """

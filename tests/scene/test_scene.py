@@ -15,7 +15,7 @@ from string import ascii_lowercase
 import pytest
 
 from signorini.exceptions import FormulaError, MeshError, SceneError, SignoriniError
-from signorini.scene.scene import check_name, load_scene, read_scene, scene_schema
+from signorini.scene.read import check_name, load_scene, read_scene, scene_schema
 from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
 
@@ -479,7 +479,7 @@ def test_an_exact_truth_is_checked_when_the_scene_is_loaded_not_when_it_is_read(
 def test_reading_imports_no_numpy(tmp_path):
     path = tmp_path / "kink.yaml"
     path.write_text(EXACT, encoding="utf-8")
-    code = f"import sys; from signorini.scene.scene import read_scene; read_scene({str(path)!r})"
+    code = f"import sys; from signorini.scene.read import read_scene; read_scene({str(path)!r})"
     code += "; sys.exit('numpy' in sys.modules)"
     assert (
         subprocess.run(

@@ -10,7 +10,7 @@ import pytest
 from project import SMALL, Project, modules_of, side_by_side
 
 from signorini.exceptions import SignoriniError
-from signorini.scene.scene import load_scene
+from signorini.scene.read import load_scene
 
 CONFIG, SCENE = "config/config.yaml", "config/scenes/small.yaml"
 NAME = "use 1 to 64 letters, digits, '-' and '_'"

@@ -7,7 +7,7 @@ import re
 import pytest
 from project import ROOT, Project
 
-from signorini.scene.scene import load_scene, scene_schema
+from signorini.scene.read import load_scene, scene_schema
 from signorini.scene.strict_yaml import load_yaml
 
 TEMPLATE = ROOT / "config/template.yaml"

@@ -33,7 +33,7 @@ from signorini.mesh.boundary import labels_of
 from signorini.exceptions import SignoriniError
 from signorini.mesh.files import files_read
 from signorini.errors.norms import RATED
-from signorini.scene.scene import check_name, read_scene
+from signorini.scene.read import check_name, read_scene
 from signorini.scene.schema import validated
 from signorini.wording import nearest
 from signorini.scene.strict_yaml import load_yaml

@@ -1,0 +1,88 @@
+"""Scenes from their files, validated before any work is done."""
+
+import os
+import re
+from functools import cache
+from pathlib import Path
+
+from signorini.errors.rates import reference_note
+from signorini.exceptions import SceneError
+from signorini.scene.checks import check_critical_points, check_document
+from signorini.scene.scene import Scene, naming
+from signorini.scene.schema import validated
+from signorini.scene.strict_yaml import load_yaml
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+_RESERVED = ("meshes", "studies", "quick")
+
+
+@cache
+def scene_schema():
+    """The JSON schema of a scene, a dict."""
+    return load_yaml(Path(__file__).with_name("schema.yaml"))
+
+
+def load_scene(path):
+    """Read a scene file and check all that can be checked before work is done.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        One line that names the file, the field, the value and the remedy.
+    """
+    scene = read_scene(path)
+    scene.check()
+    return scene
+
+
+def read_scene(path):
+    """As `load_scene`, without `Scene.check`: what the document alone shows is validated, and numpy
+    not imported.
+    """
+    path = Path(path)
+    check_name(path.stem)
+    written = load_yaml(path)
+    document = validated(written, scene_schema(), path)
+    if "outputs" not in written and document["truth"]["kind"] == "none":
+        document["outputs"] = []
+    with naming(path):
+        check_document(document)
+        if document["truth"]["kind"] != "exact":
+            document["data"] = dict.fromkeys(("g", "dirichlet", "obstacle"), 0) | document["data"]
+        if document["domain"]["kind"] == "mesh":
+            document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
+        note = reference_note(document["truth"], document["levels"], document["elements"])
+        scene = Scene(path.stem, document, path, note)
+        check_critical_points(document, scene.problem.exact)
+    return scene
+
+
+def check_name(name):
+    """Refuse a scene name that could leave its folder or trouble a shell."""
+    if name in _RESERVED:
+        raise SceneError(
+            f"scene name {name!r}: results/{name} is used for other things; choose another name"
+        )
+    if not _NAME.fullmatch(name):
+        raise SceneError(
+            f"scene name {name[:80]!r} is not valid; use 1 to 64 letters, digits, '-' and '_', "
+            "starting with a letter or digit"
+        )
+
+
+def _mesh_file(file, scene_path):
+    """Path of the mesh file from the working folder; it must lie in the folder above that of the
+    scene.
+    """
+    from signorini.mesh.imported import resolve_mesh_path
+
+    folder = scene_path.absolute().parent
+    return os.path.relpath(resolve_mesh_path(file, folder.parent, folder))

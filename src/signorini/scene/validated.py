@@ -1,0 +1,50 @@
+"""Validated scenes as files, ``scene.json``: what the commands of a workflow read instead of
+validating the scene's own file again.
+"""
+
+from pathlib import Path
+
+from signorini.exceptions import StorageError
+from signorini.scene.scene import Scene
+from signorini.storage import read_json, write_json
+
+_KEYS = ("name", "source", "document", "reference_note")
+
+
+def write_validated(path, scene):
+    """Write a validated scene as JSON, every default filled in, and its digest.
+
+    Parameters
+    ----------
+    path : str or Path
+    scene : Scene
+    """
+    values = {"name": scene.name, "source": str(scene.source), "document": scene.document}
+    write_json(path, values | {"reference_note": scene.reference_note})
+
+
+def read_validated(path):
+    """Read what `write_validated` wrote; nothing is validated again.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, altered, or not a validated scene.
+    """
+    values = read_json(path)
+    if not (isinstance(values, dict) and sorted(values) == sorted(_KEYS)):
+        raise StorageError(f"{path}: not a validated scene; delete it and rerun")
+    return Scene(
+        name=values["name"],
+        document=values["document"],
+        source=Path(values["source"]),
+        reference_note=values["reference_note"],
+    )

@@ -73,16 +73,17 @@ use rule reference as benchmark_reference with:
     benchmark:
         f"{BENCHMARK}/benchmarks/reference_{{scene}}.tsv"
     params:
-        content=content("solve.py"),
+        content=content("solve"),
         statement=statement,
-        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
+        method=method,
         element="P1",
         n=lambda wildcards: measured()["scenes"][wildcards.scene]["reference"],
 
 
 use rule errors as benchmark_errors with:
     input:
-        library("errors.py"),
+        library("errors"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
         reference=lambda wildcards: [f"{BENCHMARK}/references/{wildcards.scene}.npz"]
         * (scene(wildcards.scene).truth["kind"] == "reference"),
@@ -98,10 +99,11 @@ use rule errors as benchmark_errors with:
     benchmark:
         f"{BENCHMARK}/benchmarks/errors_{{scene}}.tsv"
     params:
-        content=content("errors.py"),
-        norms="l2,h1_semi,h1",
-        truth=truth_option,
-        quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
+        content=content("errors"),
+        asked=parts("norm_quadrature"),
+        truth=lambda wildcards: as_json(truth_part(wildcards)),
+        norms="--norms l2 h1_semi h1",
+        reference=reference_option,
 
 
 rule benchmark_gather:

@@ -1,9 +1,33 @@
 # From solutions to numbers: errors against the truth, their slopes, and whether they are what the scene expects.
 
 
+def reference_file(wildcards):
+    """The truth as an input of the errors: a file where it is a reference, none where it is exact."""
+    return [f"results/{wildcards.scene}/reference.npz"] * (
+        scene(wildcards.scene).truth["kind"] == "reference"
+    )
+
+
+def truth_part(wildcards):
+    """A parameter: what errors depend on besides their files, which is the statement of an exact scene."""
+    asked = scene(wildcards.scene)
+    return asked.statement if asked.truth["kind"] == "exact" else coefficient_part(asked.document)
+
+
+def coefficient_part(document):
+    """The diffusion coefficient, where a norm is weighted with it."""
+    return document["data"]["coefficient"] if "energy" in document["norms"] else None
+
+
+def reference_option(wildcards, input):
+    """Option of the errors for a reference, where there is one."""
+    return f"--reference {quote(str(input.reference))}" if input.reference else ""
+
+
 rule errors:
     input:
-        library("errors.py"),
+        library("errors"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
         reference=reference_file,
         solutions=solution_files,
@@ -15,20 +39,20 @@ rule errors:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
     params:
-        content=content("errors.py"),
-        norms=in_table,
-        truth=truth_option,
-        quadrature=lambda wildcards: scene(wildcards.scene).document["norm_quadrature"],
+        content=content("errors"),
+        asked=parts("norms", "norm_quadrature"),
+        truth=lambda wildcards: as_json(truth_part(wildcards)),
+        norms="",
+        reference=reference_option,
     shell:
-        "python3 workflow/scripts/errors.py --scene-file config/scenes/{wildcards.scene}.yaml"
-        " --mesh {input.mesh:q} {params.truth}"
-        " --norms {params.norms} --quadrature {params.quadrature}"
-        " --output {output:q} {input.solutions:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini errors {input.scene:q} {input.solutions:q} --mesh {input.mesh:q}"
+        " {params.reference} {params.norms} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule rates:
     input:
-        library("rates.py"),
+        library("rates"),
+        scene=ancient(scene_file),
         errors="results/{scene}/errors.csv",
     output:
         "results/{scene}/rates.csv",
@@ -36,28 +60,27 @@ rule rates:
         "results/{scene}/logs/rates.log",
     priority: 6
     params:
-        content=content("rates.py"),
-        asked=asked_rows,
+        content=content("rates"),
+        asked=parts("elements", "levels"),
     shell:
-        "python3 workflow/scripts/rates.py --errors {input.errors:q} --asked {params.asked:q} --output {output:q}"
-        " 2>&1 | tee {log:q}"
+        "python3 -m signorini rates {input.scene:q} {input.errors:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule expect:
     input:
-        library("expect.py"),
+        library("expect"),
+        scene=ancient(scene_file),
         errors="results/{scene}/errors.csv",
-        rates=lambda wildcards: ["results/{scene}/rates.csv"] * bool(expected(wildcards)["slopes"]),
+        rates=lambda wildcards: ["results/{scene}/rates.csv"]
+        * bool(scene(wildcards.scene).document["expect"]["slopes"]),
     output:
         "results/{scene}/expect.txt",
     log:
         "results/{scene}/logs/expect.log",
     params:
-        content=content("expect.py"),
-        asked=asked_rows,
-        expected=lambda wildcards: as_json(expected(wildcards)),
-        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
+        content=content("expect"),
+        asked=parts("elements", "levels", "norms", "slope", "expect"),
         rates=lambda wildcards, input: f"--rates {quote(str(input.rates))}" if input.rates else "",
     shell:
-        "python3 workflow/scripts/expect.py --expected {params.expected:q} --slope {params.slope}"
-        " --asked {params.asked:q} --errors {input.errors:q} {params.rates} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini expect {input.scene:q} {input.errors:q} {params.rates} -o {output:q}"
+        " 2>&1 | tee {log:q}"

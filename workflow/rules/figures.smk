@@ -1,9 +1,33 @@
 # Figures: first the numbers that a figure shows, then the drawing.
 
 
+def drawn_norms(document):
+    return (
+        [norm for norm in document["norms"] if norm in RATED]
+        if "rates" in document["outputs"]
+        else []
+    )
+
+
+def shown(wildcards):
+    """What the figures of a scene show: the field, and as far as there are any the contact line, errors and slopes."""
+    document = scene(wildcards.scene).document
+    files = {"field": "field.npz"}
+    if "contact" in labels_of(document["boundary"]):
+        files |= {"line": "contact_line.csv"}
+    if drawn_norms(document):
+        files |= {"errors": "errors.csv", "rates": "rates.csv"}
+    return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
+
+
+def figure_options(wildcards):
+    """Options of the figures for what `shown` lists."""
+    return " ".join(f"--{name} {quote(value)}" for name, value in shown(wildcards).items())
+
+
 rule surface:
     input:
-        library("surface.py"),
+        library("surface"),
         mesh=mesh_file,
         reference="results/{scene}/reference.npz",
     output:
@@ -13,15 +37,14 @@ rule surface:
     benchmark:
         "results/{scene}/benchmarks/surface.tsv"
     params:
-        content=content("surface.py"),
+        content=content("surface"),
     shell:
-        "python3 workflow/scripts/surface.py --mesh {input.mesh:q} --reference {input.reference:q}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini surface {input.mesh:q} {input.reference:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule figure_surface:
     input:
-        library("figure_surface.py"),
+        library("draw-surface"),
         surface="results/{scene}/surface.npz",
     output:
         pdf="results/{scene}/surface.pdf",
@@ -31,14 +54,14 @@ rule figure_surface:
     log:
         "results/{scene}/logs/figure_surface.log",
     params:
-        content=content("figure_surface.py"),
+        content=content("draw-surface"),
     shell:
-        "python3 workflow/scripts/figure_surface.py --surface {input.surface:q} {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini draw-surface {input.surface:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule field:
     input:
-        library("field.py"),
+        library("field"),
         mesh=mesh_file,
         solution=finest,
     output:
@@ -48,15 +71,14 @@ rule field:
     benchmark:
         "results/{scene}/benchmarks/field.tsv"
     params:
-        content=content("field.py"),
+        content=content("field"),
     shell:
-        "python3 workflow/scripts/field.py --mesh {input.mesh:q} --solution {input.solution:q}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini field {input.mesh:q} {input.solution:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule contact_line:
     input:
-        library("contact_line.py"),
+        library("contact-line"),
         mesh=mesh_file,
         solutions=finest_of_each,
     output:
@@ -66,17 +88,18 @@ rule contact_line:
     benchmark:
         "results/{scene}/benchmarks/contact_line.tsv"
     params:
-        content=content("contact_line.py"),
+        content=content("contact-line"),
     shell:
-        "python3 workflow/scripts/contact_line.py --mesh {input.mesh:q} --output {output:q}"
-        " {input.solutions:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini contact-line {input.mesh:q} {input.solutions:q} -o {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 # All figures of a scene at once: importing Matplotlib takes longer than drawing them.
 rule figures:
     input:
-        library("figures.py"),
+        library("figures"),
         unpack(shown),
+        scene=ancient(scene_file),
     output:
         report(
             directory("results/{scene}/figures"),
@@ -87,34 +110,34 @@ rule figures:
     log:
         "results/{scene}/logs/figures.log",
     params:
-        content=content("figures.py"),
-        title=lambda wildcards: scene(wildcards.scene).document["title"],
+        content=content("figures"),
+        asked=parts("title", "elements", "levels", "norms", "slope"),
         options=figure_options,
         note=reference_note,
     shell:
-        "python3 workflow/scripts/figures.py --title={params.title:q} {params.options} --output {output:q}"
-        " 2>&1 | tee {log:q}"
+        "python3 -m signorini figures {input.scene:q} {params.options} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule gallery:
     input:
-        library("figure_gallery.py"),
-        fields=gallery_fields,
+        library("gallery"),
+        scenes=ancient(expand("results/{scene}/scene.json", scene=known_scenes())),
+        fields=expand("results/{scene}/field.npz", scene=known_scenes()),
     output:
         report("results/gallery.png", caption="../report/gallery.rst"),
     log:
         "results/logs/gallery.log",
     params:
-        content=content("figure_gallery.py"),
-        titles=gallery_titles,
+        content=content("gallery"),
+        titles=lambda wildcards: as_json([scene(name).document["title"] for name in known_scenes()]),
     shell:
-        "python3 workflow/scripts/figure_gallery.py --titles {params.titles:q} --fields {input.fields:q}"
-        " --outputs {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini gallery --scenes {input.scenes:q} --fields {input.fields:q}"
+        " -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule vtu:
     input:
-        library("vtu.py"),
+        library("vtu"),
         mesh=mesh_file,
         solution=lambda wildcards: finest(wildcards, wildcards.element),
     output:
@@ -124,7 +147,6 @@ rule vtu:
     benchmark:
         "results/{scene}/benchmarks/vtu_{element}.tsv"
     params:
-        content=content("vtu.py"),
+        content=content("vtu"),
     shell:
-        "python3 workflow/scripts/vtu.py --mesh {input.mesh:q} --solution {input.solution:q}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini vtu {input.mesh:q} {input.solution:q} -o {output:q} 2>&1 | tee {log:q}"

@@ -1,5 +1,41 @@
 # What only the scene "paper" has: the paper's own names for its table and figures, the check against the published
 # numbers, and the PDF.
+import atexit
+
+PUBLISHED = "config/published/table_5_1.csv"
+WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
+FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
+PAPER_SCENE = "results/paper/scene.json"
+
+
+def of_paper(*keys):
+    """A parameter: parts of the scene `paper`."""
+    return lambda wildcards: as_json(scene("paper").section(*keys))
+
+
+def paper_output():
+    """The check and the PDF, where the scene `paper` is asked for with all that they show."""
+    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(
+        scene("paper").document["outputs"]
+    ):
+        return []
+    return [
+        f"results/paper/{file}"
+        for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]
+    ]
+
+
+def appendix():
+    """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
+    fragments = [
+        folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))
+    ]
+    return [
+        part
+        for path in fragments
+        if path.is_file()
+        for part in (path, *sorted(path.parent.glob("*.pdf")))
+    ]
 
 
 use rule table as table_5_1 with:
@@ -18,7 +54,8 @@ use rule figure_surface as figure_5_1 with:
 
 rule figures_5_2_and_5_3:
     input:
-        library("figure_convergence.py"),
+        library("draw-convergence"),
+        scene=ancient(PAPER_SCENE),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
     output:
@@ -34,19 +71,18 @@ rule figures_5_2_and_5_3:
         "results/paper/logs/figures_5_2_and_5_3.log",
     priority: 5
     params:
-        content=content("figure_convergence.py"),
-        asked=lambda wildcards: asked_rows_of("paper"),
-        slope=lambda wildcards: scene("paper").document["slope"],
+        content=content("draw-convergence"),
+        asked=of_paper("elements", "levels", "norms", "slope"),
         note=lambda wildcards: scene("paper").reference_note or "",
     shell:
-        "python3 workflow/scripts/figure_convergence.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --asked {params.asked:q} --slope {params.slope} --l2 {output.l2:q} {output.l2_png:q}"
-        " --h1 {output.h1:q} {output.h1_png:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini draw-convergence {input.scene:q} {input.errors:q} {input.rates:q}"
+        " --l2 {output.l2:q} {output.l2_png:q} --h1 {output.h1:q} {output.h1_png:q} 2>&1 | tee {log:q}"
 
 
 rule check:
     input:
-        library("check.py"),
+        library("compare"),
+        scene=ancient(PAPER_SCENE),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
         published=PUBLISHED,
@@ -55,31 +91,32 @@ rule check:
     log:
         "results/paper/logs/check.log",
     params:
-        content=content("check.py", PUBLISHED),
-        asked=lambda wildcards: asked_rows_of("paper"),
+        content=content("compare", PUBLISHED),
+        asked=of_paper("elements", "levels", "norms"),
     shell:
-        "python3 workflow/scripts/check.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --asked {params.asked:q} --published {input.published:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini compare {input.scene:q} {input.published:q} {input.errors:q}"
+        " {input.rates:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 # check.csv stays for inspection when a number is off; this rule then stops the build and says which.
 rule verify:
     input:
-        library("verify.py"),
+        library("verify"),
         check="results/paper/check.csv",
     output:
         "results/paper/check.txt",
     log:
         "results/paper/logs/verify.log",
     params:
-        content=content("verify.py"),
+        content=content("verify"),
     shell:
-        "python3 workflow/scripts/verify.py --check {input.check:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini verify {input.check:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule effects:
     input:
-        library("effects.py"),
+        library("effects"),
+        scene=ancient(PAPER_SCENE),
         errors="results/paper/errors.csv",
     output:
         "results/paper/effects.csv",
@@ -88,19 +125,17 @@ rule effects:
     benchmark:
         "results/paper/benchmarks/effects.tsv"
     params:
-        content=content("effects.py"),
+        content=content("effects"),
         statement=lambda wildcards: statement_of("paper"),
-        scene=lambda wildcards: as_json(
-            scene("paper").section("elements", "levels", "truth", "norms")
-        ),
+        asked=of_paper("elements", "levels", "truth", "norms"),
     shell:
-        "python3 workflow/scripts/effects.py --statement {params.statement:q} --scene {params.scene:q}"
-        " --errors {input.errors:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini effects {input.scene:q} {input.errors:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule macros:
     input:
-        library("macros.py"),
+        library("macros"),
+        scene=ancient(PAPER_SCENE),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
         surface="results/paper/surface.npz",
@@ -112,18 +147,16 @@ rule macros:
     log:
         "results/paper/logs/macros.log",
     params:
-        content=content("macros.py", PUBLISHED),
-        asked=lambda wildcards: asked_rows_of("paper"),
-        n=lambda wildcards: scene("paper").truth["n"],
+        content=content("macros", PUBLISHED),
+        asked=of_paper("elements", "levels", "norms", "truth"),
     shell:
-        "python3 workflow/scripts/macros.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --asked {params.asked:q} --surface {input.surface:q} --reference-n {params.n} --check {input.check:q}"
-        " --published {input.published:q} --effects {input.effects:q} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini macros {input.scene:q} --results results/paper"
+        " --published {input.published:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule paper:
     input:
-        library("paper.py"),
+        library("typeset"),
         check="results/paper/check.txt",
         source="paper/main.tex",
         parts=["results/paper/table_5_1.tex", "results/paper/macros.tex"],
@@ -133,12 +166,12 @@ rule paper:
     log:
         "results/paper/logs/paper.log",
     params:
-        content=content("paper.py", "paper/main.tex"),
+        content=content("typeset", "paper/main.tex"),
         appendix=lambda wildcards: [str(path) for path in appendix()],
         digest=lambda wildcards: digest(appendix()),
     shell:
-        "python3 workflow/scripts/paper.py --source {input.source:q} --check {input.check:q} --output {output:q}"
-        " {input.parts:q} {input.figures:q} {params.appendix:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini typeset {input.source:q} {input.parts:q} {input.figures:q}"
+        " {params.appendix:q} --check {input.check:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 if WITHOUT and paper_output() and workflow.is_main_process:

@@ -6,6 +6,15 @@ from signorini.studies.sensitivity.unsaid import DIAGONALS
 SENSITIVITY = f"{STUDIES}/sensitivity"
 
 
+def sensitivity_levels():
+    """The levels of the paper's table, or the coarse ones of them."""
+    return [n for n in scene("paper").levels if n <= 16 or not CONFIG["quick"]]
+
+
+def sensitivity_reference():
+    return scene("paper").truth["n"] // (4 if CONFIG["quick"] else 1)
+
+
 rule sensitivity_errors:
     input:
         library("sensitivity_errors.py"),

@@ -2,9 +2,37 @@
 # Priorities follow the longest chain, from the reference by errors and rates to their figures.
 
 
+def method(wildcards):
+    """The scene's route."""
+    return scene(wildcards.scene).document["solver"]["method"]
+
+
+def solutions(name):
+    asked = scene(name)
+    return [
+        f"results/{name}/solutions/{element}/n{n}.npz"
+        for element in asked.elements
+        for n in asked.levels
+    ]
+
+
+def solution_files(wildcards):
+    return solutions(wildcards.scene)
+
+
+def finest(wildcards, element=None):
+    asked = scene(wildcards.scene)
+    return f"results/{wildcards.scene}/solutions/{element or asked.elements[0]}/n{asked.levels[-1]}.npz"
+
+
+def finest_of_each(wildcards):
+    return [finest(wildcards, element) for element in scene(wildcards.scene).elements]
+
+
 rule solve:
     input:
-        library("solve.py"),
+        library("solve"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
     output:
         "results/{scene}/solutions/{element}/n{n}.npz",
@@ -14,19 +42,18 @@ rule solve:
         "results/{scene}/benchmarks/solve/{element}_n{n}.tsv"
     priority: 9
     params:
-        content=content("solve.py"),
+        content=content("solve"),
         statement=statement,
-        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
+        method=method,
     shell:
-        "python3 workflow/scripts/solve.py --scene-file config/scenes/{wildcards.scene}.yaml"
-        " --statement {params.statement:q} --mesh {input.mesh:q}"
-        " --element {wildcards.element} --n {wildcards.n} --method {params.method}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini solve {input.scene:q} --element {wildcards.element} --n {wildcards.n}"
+        " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule reference:
     input:
-        library("solve.py"),
+        library("solve"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
     output:
         "results/{scene}/reference.npz",
@@ -36,13 +63,11 @@ rule reference:
         "results/{scene}/benchmarks/reference.tsv"
     priority: 10
     params:
-        content=content("solve.py"),
+        content=content("solve"),
         statement=statement,
-        method=lambda wildcards: scene(wildcards.scene).document["solver"]["method"],
+        method=method,
         element=lambda wildcards: scene(wildcards.scene).truth["element"],
         n=lambda wildcards: scene(wildcards.scene).truth["n"],
     shell:
-        "python3 workflow/scripts/solve.py --scene-file config/scenes/{wildcards.scene}.yaml"
-        " --statement {params.statement:q} --mesh {input.mesh:q}"
-        " --element {params.element} --n {params.n} --method {params.method}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini solve {input.scene:q} --element {params.element} --n {params.n}"
+        " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"

@@ -1,5 +1,31 @@
 # The stability suite, `snakemake --cores 2 stability`; a finished piece is a file, so that it can be interrupted.
 
+from datetime import date
+
+
+def digits_asked():
+    """What the scene `paper` asks, and no finer where the stability suite is to be quick."""
+    asked = scene("paper").section("elements", "levels", "truth", "norms")
+    return asked | (
+        {"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}}
+        if CONFIG["quick"]
+        else {}
+    )
+
+
+def stability_pieces(folder, names):
+    return [f"{STABILITY}/{folder}/{name}.csv" for name in names]
+
+
+def stability_seeds():
+    """0 for the fixed seeds; else the number asked for, or today's date as one (20261125), the same all day."""
+    seeds = CONFIG["seeds"]
+    if seeds == "random":
+        seeds = int(date.today().strftime("%Y%m%d"))
+        print(f"seeds: {seeds}; --config seeds={seeds} draws them again", file=sys.stderr)
+    return 0 if seeds == "fixed" else seeds
+
+
 # The first seed of every kind of problem. Random seeds, those of a day, do not touch what is documented.
 SEEDS = stability_seeds()
 STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")

@@ -3,7 +3,8 @@
 
 rule table:
     input:
-        library("table.py"),
+        library("table"),
+        scene=ancient(scene_file),
         errors="results/{scene}/errors.csv",
         rates="results/{scene}/rates.csv",
     output:
@@ -12,11 +13,9 @@ rule table:
     log:
         "results/{scene}/logs/table.log",
     params:
-        content=content("table.py"),
-        asked=asked_rows,
-        slope=lambda wildcards: scene(wildcards.scene).document["slope"],
+        content=content("table"),
+        asked=parts("elements", "levels", "norms", "slope"),
         note=reference_note,
     shell:
-        "python3 workflow/scripts/table.py --errors {input.errors:q} --rates {input.rates:q}"
-        " --asked {params.asked:q} --slope {params.slope} --note={params.note:q}"
+        "python3 -m signorini table {input.scene:q} {input.errors:q} {input.rates:q}"
         " --tex {output.tex:q} --markdown {output.markdown:q} 2>&1 | tee {log:q}"

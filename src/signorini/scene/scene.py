@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from signorini.exceptions import SignoriniError
+from signorini.exceptions import SignoriniError, StorageError
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,10 @@ class Scene:
 
 @contextmanager
 def naming(path):
-    """Let an error name the scene's file."""
+    """Let an error name the scene's file; one of storage names its own."""
     try:
         yield
+    except StorageError:
+        raise
     except SignoriniError as error:
         raise type(error)(f"{path}: {error}") from None

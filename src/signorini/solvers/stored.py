@@ -33,11 +33,24 @@ class StoredSolution:
     method: str
 
 
-def write_solution(path, problem, solution, n, h):
-    """Store a solution of `problem` at level n, mesh width h."""
-    write_npz(
-        path,
-        kind="solution",
+def stored(problem, solution, n, h):
+    """A solution as it would be stored.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : Solution
+        Of `problem`.
+    n : int
+        Level.
+    h : float
+        Mesh width, unit of length.
+
+    Returns
+    -------
+    StoredSolution
+    """
+    return StoredSolution(
         element=problem.element,
         n=n,
         h=h,
@@ -55,6 +68,11 @@ def write_solution(path, problem, solution, n, h):
         iterations=solution.iterations,
         method=solution.method,
     )
+
+
+def write_solution(path, problem, solution, n, h):
+    """Store a solution of `problem` at level n, mesh width h; see `stored`."""
+    write_npz(path, kind="solution", **vars(stored(problem, solution, n, h)))
 
 
 def read_solution(path):

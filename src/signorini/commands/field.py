@@ -1,26 +1,30 @@
-"""The numbers that the figure of a solution shows, on any domain."""
+"""Prepare a solution for a figure: u on a mesh of bearable size, and the state of the boundary.
 
-from stage import options, run
+example:
+  signorini field mesh.npz u.npz -o field.npz
+"""
 
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_mesh, add_output, add_solution
 from signorini.mesh.domain import read_domain
 from signorini.report.field import field_of
 from signorini.solvers.stored import read_solution
 from signorini.storage import write_npz
 
 
-@options("--mesh", "--solution", "--output")
-def main(arguments):
-    """A solution to a triangulation of bearable size, u at its corners, and the state of the
-    boundary.
-    """
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_mesh(parser)
+    add_solution(parser)
+    add_output(parser, "the field, .npz")
+
+
+def run(arguments):
+    """Prepare and write."""
     solution = read_solution(arguments.solution)
     field = field_of(read_domain(arguments.mesh).level(solution.n), solution)
     write_npz(arguments.output, kind="field", **field)
-    return (
+    return Outcome(
         f"field: {solution.element} n = {solution.n} on {field['t'].shape[1]} triangles, "
         f"{len(field['critical_points'])} critical points"
     )
-
-
-if __name__ == "__main__":
-    run(main, __doc__)

@@ -1,0 +1,76 @@
+"""The commands of the program ``signorini``: their names, and what each does, in one line.
+
+A name of two words is a part of a group: ``signorini benchmark point``. The module of a command has
+its name: ``contact-line`` is in ``commands/contact_line.py``, ``benchmark point`` in
+``commands/benchmark/point.py``. It has a docstring, the help; ``add_arguments(parser)``; and
+``run(arguments)``, which returns an `Outcome`.
+"""
+
+from dataclasses import dataclass
+
+# Heading of the help -> command -> what it does.
+CATALOGUE = {
+    "A question": {
+        "scenes": "list the scenes of a folder",
+        "new": "write a commented scene to start from",
+        "check": "validate a scene: all that can be checked before any work",
+    },
+    "Its answer": {
+        "mesh": "make the coarsest mesh of a scene",
+        "solve": "discretise a scene at one level, solve it, and prove the result",
+        "errors": "measure errors against a scene's reference or exact solution",
+        "rates": "fit slopes of the errors",
+        "expect": "compare slopes and errors with what a scene expects",
+        "show": "say what is in a result file",
+    },
+    "Tables and pictures": {
+        "table": "write the error table in LaTeX and Markdown",
+        "field": "prepare a solution for a figure",
+        "contact-line": "tabulate what happens along the contact part",
+        "figures": "draw the figures of a scene",
+        "gallery": "draw the solutions of many scenes on one sheet",
+        "vtu": "write a solution as VTU, for ParaView",
+    },
+    "A paper": {
+        "compare": "compare errors and slopes with published numbers",
+        "verify": "fail where a published number was not met",
+        "surface": "sample a solution for a surface plot",
+        "draw-surface": "draw a surface plot",
+        "draw-convergence": "draw errors against mesh width",
+        "effects": "change one choice at a time that the paper leaves open",
+        "macros": "write every number of the text as a LaTeX macro",
+        "typeset": "typeset a manuscript with its tables and figures",
+    },
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command has to say.
+
+    Parameters
+    ----------
+    text : str
+        For a person: one line, or a table.
+    data : object, optional
+        The same for a program, lists, dicts, text and numbers; printed by ``--json``.
+    """
+
+    text: str
+    data: object = None
+
+
+def commands():
+    """Every command with what it does, a dict."""
+    return {name: told for section in CATALOGUE.values() for name, told in section.items()}
+
+
+def module_of(command):
+    """The name of the module that has a command.
+
+    Examples
+    --------
+    >>> module_of("contact-line"), module_of("benchmark point")
+    ('signorini.commands.contact_line', 'signorini.commands.benchmark.point')
+    """
+    return "signorini.commands." + command.replace("-", "_").replace(" ", ".")

@@ -1,0 +1,38 @@
+"""Validate a scene: all that can be checked before any work.
+
+A mistake is told in one line with the file, the field, the value and the remedy. With --output the
+validated scene is written as JSON, every default filled in; the other commands read that file as
+well, and do not validate it again.
+
+example:
+  signorini check config/scenes/paper.yaml
+"""
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output
+from signorini.scene.read import read_scene
+from signorini.scene.validated import write_validated
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    parser.add_argument("scene", metavar="SCENE", help="a scene file, config/scenes/NAME.yaml")
+    parser.add_argument(
+        "--document-only",
+        action="store_true",
+        help="leave out what takes a mesh: names of boundary parts, data against an exact solution",
+    )
+    add_output(parser, "the validated scene, .json", required=False)
+
+
+def run(arguments):
+    """Validate, and write the result where asked to."""
+    scene = read_scene(arguments.scene)
+    if not arguments.document_only:
+        scene.check()
+    if arguments.output:
+        write_validated(arguments.output, scene)
+    counted = f"{len(scene.elements)} elements on {len(scene.levels)} levels"
+    lines = [f"{scene.name}: valid, {counted}, truth {scene.truth['kind']}"]
+    lines += [f"warning: {scene.source}: {line}" for line in scene.warnings]
+    return Outcome("\n".join(lines), {"name": scene.name, "document": scene.document})

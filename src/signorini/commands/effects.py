@@ -1,0 +1,41 @@
+"""Change one choice at a time that the paper leaves open, and tell how far its table moves.
+
+example:
+  signorini effects config/scenes/paper.yaml errors.csv -o effects.csv
+"""
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output, add_scene, scene_of
+from signorini.report.result_files import read_errors
+from signorini.scene.scene import naming
+from signorini.storage import write_csv
+from signorini.studies.sensitivity.effects import effects_of_choices
+
+_NORMS = ("l2", "h1_semi", "h1")
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("errors", metavar="ERRORS", help="errors.csv of `signorini errors`")
+    add_output(parser, "the effects, .csv", required=False)
+
+
+def run(arguments):
+    """Solve with each choice changed, and compare."""
+    scene = scene_of(arguments.scene)
+    rows = read_errors(arguments.errors, scene.section("elements", "levels"), numbers=_NORMS)
+    errors = {(row["element"], int(row["n"]), norm): row[norm] for row in rows for norm in _NORMS}
+    with naming(scene.source):
+        changes = effects_of_choices(
+            scene.problem,
+            errors,
+            scene.elements,
+            scene.levels,
+            (scene.truth["element"], scene.truth["n"]),
+            scene.document["norms"],
+        )
+    if arguments.output:
+        rows = [{"choice": choice, "change": change} for choice, change in changes.items()]
+        write_csv(arguments.output, rows)
+    return Outcome(f"effects: {len(changes)} choices changed, one at a time", changes)

@@ -1,0 +1,95 @@
+"""Measure errors against a scene's reference or exact solution.
+
+Solutions are files that `signorini solve` wrote. Without any, all elements and levels of the scene
+are solved here, and the reference, too.
+
+example:
+  signorini errors config/scenes/smooth.yaml
+  signorini errors config/scenes/paper.yaml --reference reference.npz -o errors.csv u4.npz u8.npz
+"""
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.errors.measure import against_exact, against_reference, row
+from signorini.exceptions import SceneError
+from signorini.scene.scene import naming
+from signorini.solvers.stored import read_solution
+from signorini.storage import write_csv
+
+_SHOWN = ("element", "n", "h", "dofs")
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("solutions", metavar="SOLUTION", nargs="*", help="solutions, .npz")
+    parser.add_argument(
+        "--mesh", metavar="FILE", help="what `signorini mesh` wrote; else made anew"
+    )
+    parser.add_argument("--reference", metavar="FILE", help="the reference, .npz; else solved here")
+    parser.add_argument("--norms", nargs="+", metavar="NORM", help="default: those of the scene")
+    add_output(parser, "the table, errors.csv", required=False)
+
+
+def run(arguments):
+    """Measure, and write or show the table."""
+    scene = scene_of(arguments.scene)
+    if scene.truth["kind"] == "none":
+        raise SceneError(f"{scene.source}: truth.kind is none: there is nothing to compare with")
+    norms = arguments.norms or scene.document["norms"]
+    with naming(scene.source):
+        domain = domain_of(scene, arguments.mesh)
+        errors = _errors(scene, domain, norms, arguments.reference)
+        found = map(read_solution, arguments.solutions) if arguments.solutions else _solved(scene)
+        rows = [row(solution, errors) for solution in found]
+    if arguments.output:
+        write_csv(arguments.output, rows)
+        return Outcome(f"errors: {len(rows)} solutions", rows)
+    return Outcome(_shown(rows, norms), rows)
+
+
+def _errors(scene, domain, norms, reference):
+    """A function from a stored solution to its errors."""
+    if scene.truth["kind"] == "exact":
+        return against_exact(scene.problem, domain, norms)
+    if reference:
+        truth = read_solution(reference)
+    else:
+        truth = _solve(scene, scene.truth["element"], scene.truth["n"])
+    quadrature = scene.document["norm_quadrature"]
+    coefficient = scene.document["data"]["coefficient"]
+    return against_reference(truth, domain, norms, quadrature, coefficient)
+
+
+def _solved(scene):
+    """The solution of every element and level, one after the other."""
+    for element in scene.elements:
+        for n in scene.levels:
+            yield _solve(scene, element, n)
+
+
+def _solve(scene, element, n):
+    from signorini.fem.problem import discretize_on
+    from signorini.solvers import solve
+    from signorini.solvers.stored import stored
+
+    domain, method = scene.problem.triangulations, scene.document["solver"]["method"]
+    problem = discretize_on(domain.level(n), element, scene.problem)
+    return stored(problem, solve(problem, method), n, domain.mesh_size(n))
+
+
+def _shown(rows, norms):
+    """A table for a terminal."""
+    columns = [*_SHOWN, *norms, "status"]
+    cells = [columns, *([_cell(row[name]) for name in columns] for row in rows)]
+    widths = [max(len(line[k]) for line in cells) for k in range(len(columns))]
+    return "\n".join(
+        "  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True))
+        for line in cells
+    )
+
+
+def _cell(value):
+    if isinstance(value, float):
+        return f"{value:.4e}"
+    return "" if value is None else str(value)

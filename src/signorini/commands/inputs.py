@@ -1,0 +1,87 @@
+"""Arguments that commands share: a scene, a domain, and where to write."""
+
+from functools import cache
+from pathlib import Path
+
+from signorini.exceptions import SceneError
+
+
+def add_scene(parser):
+    """Add the argument ``scene``."""
+    parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        type=Path,
+        help="a scene file, config/scenes/NAME.yaml, or the .json that `signorini check` wrote",
+    )
+
+
+def add_output(parser, what, required=True):
+    """Add the option ``--output``."""
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", required=required, help=f"where to write {what}"
+    )
+
+
+@cache
+def scene_of(path):
+    """The scene that an argument names.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    SceneError, StorageError
+        Naming the file, the field, the value and the remedy.
+    """
+    if path.suffix == ".json":
+        from signorini.scene.validated import read_validated
+
+        return read_validated(path)
+    if not path.is_file():
+        raise SceneError(f"{path}: there is no such file; `signorini scenes` lists the scenes")
+    from signorini.scene.read import load_scene
+
+    return load_scene(path)
+
+
+def domain_of(scene, mesh):
+    """The domain of a scene: from a mesh that ``signorini mesh`` stored, or made anew.
+
+    Parameters
+    ----------
+    scene : Scene
+    mesh : str or None
+
+    Returns
+    -------
+    Rectangle or Refined
+    """
+    if mesh is None:
+        return scene.problem.triangulations
+    from signorini.mesh.domain import read_domain
+
+    return read_domain(mesh)
+
+
+def add_mesh(parser):
+    """Add the argument ``mesh``."""
+    parser.add_argument("mesh", metavar="MESH", help="what `signorini mesh` wrote, .npz")
+
+
+def add_solution(parser):
+    """Add the argument ``solution``."""
+    parser.add_argument("solution", metavar="SOLUTION", help="what `signorini solve` wrote, .npz")
+
+
+def add_drawings(parser, *flags):
+    """Add an option that takes the files of a figure."""
+    parser.add_argument(
+        *flags, nargs="+", required=True, metavar="FILE", help="where to draw, .pdf and .png"
+    )

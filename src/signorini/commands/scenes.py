@@ -1,0 +1,36 @@
+"""List the scenes of a folder with their titles.
+
+example:
+  signorini scenes
+"""
+
+from pathlib import Path
+
+from signorini.commands.catalogue import Outcome
+from signorini.exceptions import SceneError, SignoriniError
+from signorini.scene.read import read_scene
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    parser.add_argument(
+        "folder", nargs="?", default="config/scenes", help="default: %(default)s", type=Path
+    )
+
+
+def run(arguments):
+    """Read every scene of the folder; one that is not valid is told with its mistake."""
+    paths = sorted(arguments.folder.glob("*.yaml"))
+    if not paths:
+        raise SceneError(f"{arguments.folder}: no scene there; name a folder that has .yaml files")
+    told = {path.stem: _told(path) for path in paths}
+    width = max(map(len, told))
+    return Outcome("\n".join(f"{name:<{width}}  {line}" for name, line in told.items()), told)
+
+
+def _told(path):
+    try:
+        scene = read_scene(path)
+    except SignoriniError as error:
+        return f"not valid: {error}"
+    return scene.document["title"] or f"truth {scene.truth['kind']}"

@@ -1,0 +1,71 @@
+"""Say what is in a result file: a solution, mesh or field (.npz), or a table (.csv).
+
+example:
+  signorini show results/paper/solutions/CR/n64.npz
+"""
+
+import zipfile
+from pathlib import Path
+
+from signorini.commands.catalogue import Outcome
+from signorini.exceptions import StorageError
+from signorini.storage import read_npz, read_table
+
+_ROWS = 20  # of a table that are shown
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    parser.add_argument("file", metavar="FILE", type=Path, help="an .npz or .csv file")
+
+
+def run(arguments):
+    """Read the file, its digest included, and describe it."""
+    reader = {".npz": _arrays, ".csv": _table}.get(arguments.file.suffix)
+    if reader is None:
+        raise StorageError(f"{arguments.file}: neither .npz nor .csv; name a result file")
+    return reader(arguments.file)
+
+
+def _arrays(path):
+    values = read_npz(path, _kind(path))
+    told = {name: _described(value) for name, value in values.items()}
+    width = max(map(len, told))
+    lines = [f"{name:<{width}}  {text}" for name, text in told.items()]
+    return Outcome("\n".join([f"{path}: a {_kind(path)}", *lines]), {"kind": _kind(path)} | told)
+
+
+def _kind(path):
+    """What an .npz says that it is."""
+    import numpy as np
+
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            return str(archive["kind"])
+    except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+        raise StorageError(f"{path}: not a result file ({error})") from error
+
+
+def _described(value):
+    """A number as it is, an array by its shape and range."""
+    if value.ndim == 0:
+        return str(value.item())
+    shape = " by ".join(map(str, value.shape))
+    if value.dtype == bool:
+        return f"{shape}, {int(value.sum())} true"
+    if value.size and value.dtype.kind in "if":
+        return f"{shape}, from {value.min():.6g} to {value.max():.6g}"
+    return f"{shape}, {value.dtype}"
+
+
+def _table(path):
+    rows = read_table(path)
+    columns = list(rows[0])
+    cells = [columns, *([row[name] for name in columns] for row in rows[:_ROWS])]
+    widths = [max(len(line[k]) for line in cells) for k in range(len(columns))]
+    lines = [
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in cells
+    ]
+    more = [f"... and {len(rows) - _ROWS} more rows"] if len(rows) > _ROWS else []
+    return Outcome("\n".join(lines + more), rows)

@@ -1,0 +1,91 @@
+"""Which files of the library a command can load, found from the syntax trees of those files.
+
+A workflow makes them inputs of its jobs, so that an edit of any of them runs those jobs again. An
+import counts wherever it stands, also within a function. So does a text that is the full name of a
+module, alone or before a colon: modules that are loaded by name, as routes and rivals are, stand in
+a table of such texts.
+"""
+
+import ast
+from functools import cache
+from pathlib import Path
+
+from signorini.commands.catalogue import module_of
+
+PACKAGE = "signorini"
+_ROOT = Path(__file__).parents[1]
+# Jobs read the validated scene: no command but those named here reads a scene's own file.
+_READER, _READERS = f"{PACKAGE}.scene.read", ("check", "scenes", "new")
+# What every command passes through.
+_PROGRAM = (f"{PACKAGE}.__main__", f"{PACKAGE}.commands.program")
+
+
+@cache
+def sources(command):
+    """The files of the library that a command can load.
+
+    Parameters
+    ----------
+    command : str
+        One of `catalogue.commands`.
+
+    Returns
+    -------
+    tuple of Path
+        Sorted; absolute.
+    """
+    return modules_from(module_of(command), *_PROGRAM, reader=command in _READERS)
+
+
+@cache
+def modules_from(*names, reader=False):
+    """The files that modules can load, their own included.
+
+    Parameters
+    ----------
+    *names : str
+        Full names of modules.
+    reader : bool
+        Whether the module that reads scene files counts where another names it.
+
+    Returns
+    -------
+    tuple of Path
+        Sorted; absolute.
+    """
+    found = set()
+    waiting = [file for name in names for file in _executed(name)]
+    left_out = () if reader else _executed(_READER)[-1:]
+    while waiting:
+        path = waiting.pop()
+        if path not in found and path not in left_out:
+            found.add(path)
+            waiting += _named(path)
+    return tuple(sorted(found))
+
+
+@cache
+def _named(path):
+    """The files that executing a file, or any function of it, may load."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            names.add(node.value.partition(":")[0])
+    return {file for name in names for file in _executed(name)}
+
+
+@cache
+def _executed(name):
+    """The files that importing a module executes: its packages' __init__.py, and its own."""
+    parts = name.split(".")
+    if parts[0] != PACKAGE or not all(part.isidentifier() for part in parts):
+        return ()
+    files = []
+    for count in range(1, len(parts) + 1):
+        stem = _ROOT.joinpath(*parts[1:count])
+        files += [stem / "__init__.py", stem.with_suffix(".py")]
+    return tuple(file for file in files if file.is_file())

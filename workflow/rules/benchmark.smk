@@ -4,7 +4,7 @@
 
 rule benchmark_machine:
     input:
-        library("benchmark_machine.py"),
+        library("benchmark machine"),
     output:
         f"{BENCHMARK}/machine.json",
     log:
@@ -12,57 +12,60 @@ rule benchmark_machine:
     priority: 100  # before this run is the load
     threads: all_cores
     params:
-        content=content("benchmark_machine.py"),
+        content=content("benchmark machine"),
     shell:
-        "python3 workflow/scripts/benchmark_machine.py --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark machine -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule benchmark_point:
     input:
-        library("benchmark_point.py"),
+        library("benchmark point"),
+        scene=ancient(scene_file),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         before=point_before,
         solution="results/{scene}/solutions/{element}/n{n}.npz",
+        settings=ancient(BENCHMARK_SETTINGS),
     output:
         f"{BENCHMARK}/points/{{scene}}/{{element}}/{{method}}/n{{n}}.csv",
     log:
         f"{BENCHMARK}/logs/points/{{scene}}_{{element}}_{{method}}_n{{n}}.log",
     threads: all_cores
     params:
-        content=content("benchmark_point.py"),
+        content=content("benchmark point"),
         statement=statement,
-        repeats=lambda wildcards: as_json(measured()["repeats"]),
-        limits=lambda wildcards: as_json(measured()["limits"]),
+        measured=benchmark_settings("repeats", "limits"),
         before=lambda wildcards, input: (
             f"--before {quote(str(input.before))}" if input.before else ""
         ),
-        warm_up=lambda wildcards: max(int(wildcards.n) // 2, scene(wildcards.scene).levels[0]),
+        coarsest=lambda wildcards: scene(wildcards.scene).levels[0],
+        settings=SETTINGS,
     shell:
-        "python3 workflow/scripts/benchmark_point.py --statement {params.statement:q} --scene {wildcards.scene}"
-        " --element {wildcards.element} --n {wildcards.n} --method {wildcards.method} --warm-up {params.warm_up}"
-        " --repeats {params.repeats:q} --limits {params.limits:q} {params.before} --solution {input.solution:q}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark point {input.scene:q} --element {wildcards.element}"
+        " --n {wildcards.n} --method {wildcards.method} --solution {input.solution:q} {params.before}"
+        " {params.settings} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule benchmark_rival:
     input:
-        library("benchmark_rival.py"),
+        library("benchmark rival"),
+        scene=ancient(scene_file),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         mesh=mesh_file,
+        settings=ancient(BENCHMARK_SETTINGS),
     output:
         f"{BENCHMARK}/rivals/{{scene}}/{{element}}/{{rival}}.csv",
     log:
         f"{BENCHMARK}/logs/rivals/{{scene}}_{{element}}_{{rival}}.log",
     threads: all_cores
     params:
-        content=content("benchmark_rival.py"),
+        content=content("benchmark rival"),
         statement=statement,
-        levels=lambda wildcards: as_json(measured()["rivals"]["levels"]),
-        seconds=lambda wildcards: measured()["rivals"]["seconds"],
+        measured=benchmark_settings("rivals"),
+        settings=SETTINGS,
     shell:
-        "python3 workflow/scripts/benchmark_rival.py --statement {params.statement:q} --mesh {input.mesh:q}"
-        " --scene {wildcards.scene} --element {wildcards.element} --rival {wildcards.rival}"
-        " --levels {params.levels:q} --seconds {params.seconds} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark rival {input.scene:q} --element {wildcards.element}"
+        " --rival {wildcards.rival} --mesh {input.mesh:q} {params.settings} -o {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 use rule reference as benchmark_reference with:
@@ -90,7 +93,7 @@ use rule errors as benchmark_errors with:
         solutions=lambda wildcards: [
             f"results/{wildcards.scene}/solutions/{element}/n{n}.npz"
             for element in scene(wildcards.scene).elements
-            for n in shown_levels(wildcards.scene)
+            for n in shown_levels(measured(), scene(wildcards.scene))
         ],
     output:
         f"{BENCHMARK}/errors/{{scene}}.csv",
@@ -108,11 +111,13 @@ use rule errors as benchmark_errors with:
 
 rule benchmark_gather:
     input:
-        library("benchmark_gather.py"),
+        library("benchmark gather"),
+        scenes=ancient(benchmark_scenes),
         points=points,
-        rivals=duels,
+        rivals=rival_files,
         errors=lambda wildcards: [f"{BENCHMARK}/errors/{name}.csv" for name in measured()["scenes"]],
-        coarse=bending_files,
+        coarse=coarse_errors,
+        settings=ancient(BENCHMARK_SETTINGS),
     output:
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
@@ -120,19 +125,20 @@ rule benchmark_gather:
     log:
         f"{BENCHMARK}/logs/gather.log",
     params:
-        content=content("benchmark_gather.py"),
-        files=lambda wildcards, input: as_json(
-            {key: list(input[key]) for key in ("points", "rivals", "errors", "coarse")}
-        ),
-        asked=lambda wildcards: as_json(errors_asked()),
+        content=content("benchmark gather"),
+        measured=benchmark_settings("scenes"),
+        asked=benchmark_errors_asked,
+        folder=BENCHMARK,
+        settings=SETTINGS,
     shell:
-        "python3 workflow/scripts/benchmark_gather.py --files {params.files:q} --asked {params.asked:q}"
-        " --points {output.points:q} --rivals {output.rivals:q} --summary {output.summary:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark gather --scenes {input.scenes:q} --points {input.points:q}"
+        " --rivals {input.rivals:q} --errors {input.errors:q} --coarse {input.coarse:q}"
+        " {params.settings} -o {params.folder:q} 2>&1 | tee {log:q}"
 
 
 rule benchmark_figure:
     input:
-        library("figure_benchmark.py"),
+        library("benchmark figure"),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
         summary=f"{BENCHMARK}/summary.json",
@@ -142,34 +148,39 @@ rule benchmark_figure:
     log:
         f"{BENCHMARK}/logs/figure_{{figure}}.log",
     params:
-        content=content("figure_benchmark.py"),
+        content=content("benchmark figure"),
+        folder=BENCHMARK,
     shell:
-        "python3 workflow/scripts/figure_benchmark.py --figure {wildcards.figure} --points {input.points:q}"
-        " --rivals {input.rivals:q} --summary {input.summary:q} {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark figure {params.folder:q} --figure {wildcards.figure}"
+        " -o {output:q} 2>&1 | tee {log:q}"
 
 
 # The page comes last, so that where it is there are its figures.
 rule benchmark:
     input:
-        library("benchmark_report.py"),
+        library("benchmark report"),
         expand(
             f"{BENCHMARK}/benchmark_{{figure}}.{{ending}}",
             figure=BENCHMARK_FIGURES,
             ending=["pdf", "png"],
         ),
+        scenes=ancient(benchmark_scenes),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
         summary=f"{BENCHMARK}/summary.json",
         machine=ancient(f"{BENCHMARK}/machine.json"),
+        settings=ancient(BENCHMARK_SETTINGS),
     output:
         tex=f"{BENCHMARK}/benchmark.tex",
         markdown=f"{BENCHMARK}/benchmark.md",
     log:
         f"{BENCHMARK}/logs/report.log",
     params:
-        content=content("benchmark_report.py"),
-        asked=lambda wildcards: as_json(measured() | {"truths": own_references()}),
+        content=content("benchmark report"),
+        measured=benchmark_settings(),
+        truths=lambda wildcards: as_json([scene(name).truth for name in measured()["scenes"]]),
+        folder=BENCHMARK,
+        settings=SETTINGS,
     shell:
-        "python3 workflow/scripts/benchmark_report.py --points {input.points:q} --rivals {input.rivals:q}"
-        " --summary {input.summary:q} --machine {input.machine:q} --asked {params.asked:q} --tex {output.tex:q}"
-        " --markdown {output.markdown:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini benchmark report {params.folder:q} --scenes {input.scenes:q}"
+        " {params.settings} 2>&1 | tee {log:q}"

@@ -3,37 +3,43 @@ BENCHMARK = f"{STUDIES}/benchmark"
 BENCHMARK_FIGURES = ["error", "dofs", "growth", "stages", "rivals"]
 
 
+BENCHMARK_SETTINGS = "config/benchmark.yaml"
+# Options of the commands that read the settings.
+SETTINGS = f"--settings {BENCHMARK_SETTINGS} {QUICK_OPTION}"
+
+from signorini.studies.benchmark.settings import (
+    check_references,
+    coarse_references,
+    measured_levels,
+    read_settings,
+    shown_levels,
+)
+
+
 @cache
 @reported
 def measured():
-    """config/benchmark.yaml, checked, with what stands under quick in place of the rest where that is asked for."""
-    source = "config/benchmark.yaml"
-    asked = validated(
-        load_yaml(source), load_yaml("workflow/schemas/benchmark.schema.yaml"), source
+    """The settings, checked."""
+    settings = read_settings(BENCHMARK_SETTINGS, QUICK)
+    check_references(
+        settings, {name: scene(name) for name in settings["scenes"]}, BENCHMARK_SETTINGS
     )
-    asked |= asked.get("quick", {}) if CONFIG["quick"] else {}
-    for name, part in asked["scenes"].items():
-        if scene(name).truth["kind"] != "exact" and "reference" not in part:
-            raise SignoriniError(
-                f"{source}: scenes.{name}.reference: missing; the scene has no exact solution, so name the level of a"
-                " reference, four times the last level whose error is shown"
-            )
-    return asked
+    return settings
 
 
-def measured_levels(name):
-    """From the scene's coarsest level to the finest measured."""
-    n, levels = scene(name).levels[0], []
-    while n <= measured()["scenes"][name]["finest"]:
-        levels.append(n)
-        n *= 2
-    return levels
+def benchmark_settings(*keys):
+    """A parameter: the settings on which a job depends, or all."""
+    return lambda wildcards: as_json({key: measured()[key] for key in keys or measured()})
 
 
-def shown_levels(name):
-    """The levels whose errors count: four times coarser than a reference."""
-    finest = measured()["scenes"][name].get("reference", 4 * measured_levels(name)[-1]) // 4
-    return [n for n in measured_levels(name) if n <= finest]
+def benchmark_scenes(wildcards):
+    return [f"results/{name}/scene.json" for name in measured()["scenes"]]
+
+
+def benchmark_errors_asked(wildcards):
+    """A parameter: the elements and levels of each scene, its own and those shown."""
+    asked = [scene(name) for name in measured()["scenes"]]
+    return as_json([[s.elements, s.levels, shown_levels(measured(), s)] for s in asked])
 
 
 def points(wildcards):
@@ -46,7 +52,7 @@ def points(wildcards):
         for name in measured()["scenes"]
         for element in scene(name).elements
         for method in METHODS
-        for n in measured_levels(name)
+        for n in measured_levels(measured(), scene(name))
     ]
 
 
@@ -57,7 +63,7 @@ def point_before(wildcards):
     )
 
 
-def duels(wildcards):
+def rival_files(wildcards):
     from signorini.studies.rivals import RIVALS
 
     return [
@@ -68,31 +74,12 @@ def duels(wildcards):
     ]
 
 
-def errors_asked():
-    """The rows of errors that the summary needs, of each scene: on the levels shown here, and on the scene's own."""
-    asked = {name: scene(name).section("elements", "levels") for name in measured()["scenes"]}
-    return {
-        "errors": {name: part | {"levels": shown_levels(name)} for name, part in asked.items()},
-        "coarse": asked,
-    }
-
-
 def all_cores(wildcards):
     """As many as Snakemake was given; one where it was given none, as by `snakemake --unlock` or for a cluster."""
     return workflow.global_resources["_cores"].value or 1
 
 
-def own_references():
-    """Scene -> level of its own reference, where it has one."""
-    truths = {name: scene(name).truth for name in measured()["scenes"]}
-    return {name: truth["n"] for name, truth in truths.items() if truth["kind"] == "reference"}
-
-
-def bending_files(wildcards):
+def coarse_errors(wildcards):
     """The errors of the scenes whose own reference is coarser than the benchmark's."""
-    asked = measured()["scenes"]
-    return [
-        f"results/{name}/errors.csv"
-        for name, n in own_references().items()
-        if asked[name]["reference"] > n
-    ]
+    scenes = [scene(name) for name in measured()["scenes"]]
+    return [f"results/{name}/errors.csv" for name in coarse_references(measured(), scenes)]

@@ -88,23 +88,7 @@ def check_results():
 @cache
 def library(command):
     """The files of the library that a command can load: an edit of any of them runs its jobs again."""
-    if command.endswith(".py"):
-        return of_script(command)
     return [os.path.relpath(path, PROJECT) for path in sources(command)]
-
-
-def of_script(script):
-    from signorini.commands.sources import _named
-
-    scripts = [Path("workflow/scripts") / name for name in (script, "stage.py")]
-    names = [file for path in scripts for file in _named(path)]
-    found = modules_from(
-        *{
-            ".".join(file.relative_to(LIBRARY).with_suffix("").parts).removesuffix(".__init__")
-            for file in names
-        }
-    )
-    return [*map(str, scripts), *(os.path.relpath(path, PROJECT) for path in found)]
 
 
 def content(command, *others):
@@ -141,4 +125,6 @@ def digest(paths):
 CONFIG = check_config()
 check_results()
 # Where the studies put what they measure; a quick run does not overwrite a full one.
-STUDIES = "results/quick" if CONFIG["quick"] else "results/studies"
+QUICK = CONFIG["quick"]
+QUICK_OPTION = "--quick" if QUICK else ""
+STUDIES = "results/quick" if QUICK else "results/studies"

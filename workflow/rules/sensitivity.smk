@@ -6,18 +6,10 @@ from signorini.studies.sensitivity.unsaid import DIAGONALS
 SENSITIVITY = f"{STUDIES}/sensitivity"
 
 
-def sensitivity_levels():
-    """The levels of the paper's table, or the coarse ones of them."""
-    return [n for n in scene("paper").levels if n <= 16 or not CONFIG["quick"]]
-
-
-def sensitivity_reference():
-    return scene("paper").truth["n"] // (4 if CONFIG["quick"] else 1)
-
-
 rule sensitivity_errors:
     input:
-        library("sensitivity_errors.py"),
+        library("sensitivity errors"),
+        scene=ancient(PAPER_SCENE),
     output:
         f"{SENSITIVITY}/errors/{{diagonal,[a-z-]+}}.csv",
     log:
@@ -26,19 +18,19 @@ rule sensitivity_errors:
         f"{SENSITIVITY}/benchmarks/errors_{{diagonal}}.tsv"
     priority: lambda wildcards: DIAGONALS.index(wildcards.diagonal)
     params:
-        content=content("sensitivity_errors.py"),
+        content=content("sensitivity errors"),
         statement=lambda wildcards: statement_of("paper"),
-        levels=lambda wildcards: as_json(sensitivity_levels()),
-        reference=lambda wildcards: sensitivity_reference(),
+        asked=of_paper("levels", "truth"),
+        quick=QUICK_OPTION,
     shell:
-        "python3 workflow/scripts/sensitivity_errors.py --statement {params.statement:q}"
-        " --diagonal {wildcards.diagonal} --levels {params.levels:q} --reference-n {params.reference}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini sensitivity errors {input.scene:q} --diagonal {wildcards.diagonal}"
+        " {params.quick} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule sensitivity_combinations:
     input:
-        library("sensitivity_combinations.py"),
+        library("sensitivity combinations"),
+        scene=ancient(PAPER_SCENE),
         errors=expand(f"{SENSITIVITY}/errors/{{diagonal}}.csv", diagonal=DIAGONALS),
         published=PUBLISHED,
     output:
@@ -47,17 +39,18 @@ rule sensitivity_combinations:
     log:
         f"{SENSITIVITY}/logs/combinations.log",
     params:
-        content=content("sensitivity_combinations.py", PUBLISHED),
-        levels=lambda wildcards: as_json(sensitivity_levels()),
+        content=content("sensitivity combinations", PUBLISHED),
+        asked=of_paper("levels"),
+        quick=QUICK_OPTION,
+        folder=SENSITIVITY,
     shell:
-        "python3 workflow/scripts/sensitivity_combinations.py --published {input.published:q}"
-        " --levels {params.levels:q}"
-        " --combinations {output.combinations:q} --ratios {output.ratios:q} {input.errors:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini sensitivity combinations {input.scene:q} {input.errors:q}"
+        " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"
 
 
 rule figure_sensitivity:
     input:
-        library("figure_sensitivity.py"),
+        library("sensitivity figures"),
         combinations=f"{SENSITIVITY}/sensitivity.csv",
         ratios=f"{SENSITIVITY}/sensitivity_ratios.csv",
     output:
@@ -66,18 +59,19 @@ rule figure_sensitivity:
     log:
         f"{SENSITIVITY}/logs/figure.log",
     params:
-        content=content("figure_sensitivity.py"),
+        content=content("sensitivity figures"),
+        folder=SENSITIVITY,
     shell:
-        "python3 workflow/scripts/figure_sensitivity.py --combinations {input.combinations:q} --ratios {input.ratios:q}"
-        " --matches-to {output.matches:q} --ratios-to {output.ratios:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini sensitivity figures {params.folder:q} 2>&1 | tee {log:q}"
 
 
 # The page comes last, so that where it is there are its figures.
 rule sensitivity:
     input:
-        library("sensitivity.py"),
+        library("sensitivity report"),
         rules.sensitivity_combinations.output,
         rules.figure_sensitivity.output,
+        scene=ancient(PAPER_SCENE),
         errors=rules.sensitivity_combinations.input.errors,
         published=PUBLISHED,
     output:
@@ -86,10 +80,10 @@ rule sensitivity:
     log:
         f"{SENSITIVITY}/logs/page.log",
     params:
-        content=content("sensitivity.py", PUBLISHED),
-        levels=lambda wildcards: as_json(sensitivity_levels()),
-        reference=lambda wildcards: sensitivity_reference(),
-        quick="--quick" if CONFIG["quick"] else "",
+        content=content("sensitivity report", PUBLISHED),
+        asked=of_paper("levels", "truth"),
+        quick=QUICK_OPTION,
+        folder=SENSITIVITY,
     shell:
-        "python3 workflow/scripts/sensitivity.py --published {input.published:q} --reference-n {params.reference}"
-        " --levels {params.levels:q} {params.quick} --tex {output.tex:q} --markdown {output.markdown:q} {input.errors:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini sensitivity report {input.scene:q} {input.errors:q}"
+        " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"

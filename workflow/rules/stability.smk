@@ -3,16 +3,6 @@
 from datetime import date
 
 
-def digits_asked():
-    """What the scene `paper` asks, and no finer where the stability suite is to be quick."""
-    asked = scene("paper").section("elements", "levels", "truth", "norms")
-    return asked | (
-        {"levels": asked["levels"][:4], "truth": asked["truth"] | {"n": 64}}
-        if CONFIG["quick"]
-        else {}
-    )
-
-
 def stability_pieces(folder, names):
     return [f"{STABILITY}/{folder}/{name}.csv" for name in names]
 
@@ -31,7 +21,6 @@ SEEDS = stability_seeds()
 STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")
 STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
-QUICK = CONFIG["quick"]
 
 # As in signorini.studies.stability.bodies.FAMILIES.
 PROBLEM_FAMILIES = [
@@ -68,7 +57,7 @@ EXTREMES = {
 
 rule stability_success:
     input:
-        library("stability_success.py"),
+        library("stability success"),
     output:
         f"{STABILITY}/success/{{family}}.csv",
     log:
@@ -76,18 +65,19 @@ rule stability_success:
     wildcard_constraints:
         family="|".join(PROBLEM_FAMILIES),
     params:
-        content=content("stability_success.py"),
+        content=content("stability success"),
         seeds=f"{1000 * SEEDS} {1 if QUICK else 25}",
         few=1 if QUICK else 3,
         limit=0.1 if QUICK else 1,
     shell:
-        "python3 workflow/scripts/stability_success.py --family {wildcards.family} --seeds {params.seeds}"
-        " --few {params.few} --time-limit {params.limit} --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini stability success {wildcards.family} --seeds {params.seeds} --few {params.few}"
+        " --time-limit {params.limit} -o {output:q} 2>&1 | tee {log:q}"
 
 
 rule stability_digits:
     input:
-        library("stability_digits.py"),
+        library("stability digits"),
+        scene=ancient(PAPER_SCENE),
     output:
         f"{STABILITY}/digits/{{variant}}.csv",
     log:
@@ -95,21 +85,22 @@ rule stability_digits:
     wildcard_constraints:
         variant="|".join(VARIANTS),
     params:
-        content=content("stability_digits.py"),
+        content=content("stability digits"),
         statement=lambda wildcards: statement_of("paper"),
-        scene=lambda wildcards: as_json(digits_asked()),
+        asked=of_paper("elements", "levels", "truth", "norms"),
+        quick=QUICK_OPTION,
         name=lambda wildcards: wildcards.variant.removesuffix("-two-threads"),
         samples=lambda wildcards: {"last-bit": 5, "renumbered": 2}.get(wildcards.variant, 1),
         threads=lambda wildcards: VARIANTS[wildcards.variant],
     shell:
-        "python3 workflow/scripts/stability_digits.py --statement {params.statement:q} --scene {params.scene:q}"
-        " --variant {params.name} --samples {params.samples} --threads {params.threads} --output {output:q}"
+        "python3 -m signorini stability digits {input.scene:q} --variant {params.name}"
+        " --samples {params.samples} --threads {params.threads} {params.quick} -o {output:q}"
         " 2>&1 | tee {log:q}"
 
 
 rule stability_floor:
     input:
-        library("stability_floor.py"),
+        library("stability round-off"),
     output:
         f"{STABILITY}/floor/{{piece}}.csv",
     log:
@@ -118,16 +109,16 @@ rule stability_floor:
         piece="|".join(FLOOR),
     priority: 5
     params:
-        content=content("stability_floor.py"),
+        content=content("stability round-off"),
         levels=lambda wildcards: list(FLOOR[wildcards.piece]),
     shell:
-        "python3 workflow/scripts/stability_floor.py --piece {wildcards.piece} --levels {params.levels}"
-        " --output {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini stability round-off {wildcards.piece} --levels {params.levels} -o {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 rule stability_extremes:
     input:
-        library("stability_extremes.py"),
+        library("stability extremes"),
     output:
         f"{STABILITY}/extremes/{{kind}}.csv",
     log:
@@ -135,16 +126,16 @@ rule stability_extremes:
     wildcard_constraints:
         kind="|".join(EXTREMES),
     params:
-        content=content("stability_extremes.py"),
+        content=content("stability extremes"),
         values=lambda wildcards: list(EXTREMES[wildcards.kind]),
     shell:
-        "python3 workflow/scripts/stability_extremes.py --kind {wildcards.kind} --output {output:q}"
-        " --values {params.values} 2>&1 | tee {log:q}"
+        "python3 -m signorini stability extremes {wildcards.kind} --values {params.values} -o {output:q}"
+        " 2>&1 | tee {log:q}"
 
 
 rule stability_report:
     input:
-        library("stability_report.py"),
+        library("stability report"),
         success=stability_pieces("success", PROBLEM_FAMILIES),
         digits=stability_pieces("digits", VARIANTS),
         floor=stability_pieces("floor", FLOOR),
@@ -156,18 +147,18 @@ rule stability_report:
     log:
         f"{STABILITY}/logs/report.log",
     params:
-        content=content("stability_report.py"),
+        content=content("stability report"),
         limit=0.1 if QUICK else 1,
         seeds=SEEDS,
+        folder=STABILITY,
     shell:
-        "python3 workflow/scripts/stability_report.py --time-limit {params.limit} --seeds {params.seeds}"
-        " --output {output.tex:q}"
-        " 2>&1 | tee {log:q}"
+        "python3 -m signorini stability report {params.folder:q} --time-limit {params.limit}"
+        " --seeds {params.seeds} 2>&1 | tee {log:q}"
 
 
 rule figure_stability:
     input:
-        library("figure_stability.py"),
+        library("stability figures"),
         success=stability_pieces("success", PROBLEM_FAMILIES),
         floor=stability_pieces("floor", FLOOR),
     output:
@@ -179,6 +170,7 @@ rule figure_stability:
     log:
         f"{STABILITY}/logs/figures.log",
     params:
-        content=content("figure_stability.py"),
+        content=content("stability figures"),
+        folder=STABILITY,
     shell:
-        "python3 workflow/scripts/figure_stability.py {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini stability figures {params.folder:q} 2>&1 | tee {log:q}"

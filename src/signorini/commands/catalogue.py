@@ -41,6 +41,28 @@ CATALOGUE = {
         "macros": "write every number of the text as a LaTeX macro",
         "typeset": "typeset a manuscript with its tables and figures",
     },
+    "The benchmark": {
+        "benchmark machine": "write down the machine, the versions and the load",
+        "benchmark point": "measure an element, a level and a route of a scene",
+        "benchmark rival": "measure a rival and our routes in turn",
+        "benchmark gather": "gather what was measured, and sum it up",
+        "benchmark figure": "draw a figure of it",
+        "benchmark report": "write its page",
+    },
+    "The sensitivity study": {
+        "sensitivity errors": "measure a scene's errors under other choices",
+        "sensitivity combinations": "hold every combination against published numbers",
+        "sensitivity figures": "draw its figures",
+        "sensitivity report": "write its page",
+    },
+    "The stability suite": {
+        "stability success": "solve generated problems and judge the answers",
+        "stability digits": "compute a table in other ways that are equally right",
+        "stability round-off": "see where accuracy ends",
+        "stability extremes": "solve extreme problems",
+        "stability figures": "draw its figures",
+        "stability report": "write its page",
+    },
 }
 
 

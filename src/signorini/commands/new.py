@@ -1,6 +1,7 @@
 """Write a commented scene to start from: config/scenes/NAME.yaml.
 
-It is a valid scene as it stands; every key that it leaves out is there behind a #, with its default.
+It is a valid scene as it stands. Every key that it leaves out is there behind a #, with its
+default.
 
 example:
   signorini new mine

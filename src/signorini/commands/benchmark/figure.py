@@ -1,0 +1,43 @@
+"""Draw a figure of the benchmark from its tables.
+
+example:
+  signorini benchmark figure results/studies/benchmark --figure error -o error.pdf
+"""
+
+from pathlib import Path
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_drawings
+from signorini.figures import benchmark
+from signorini.figures.style import save_figure
+from signorini.storage import read_csv, read_json
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.studies.benchmark.summary import series
+
+_FIGURES = {
+    "error": lambda found, rivals, summary: benchmark.draw_error(found),
+    "dofs": lambda found, rivals, summary: benchmark.draw_dofs(found),
+    "growth": lambda found, rivals, summary: benchmark.draw_growth(found, summary["growth"]),
+    "stages": lambda found, rivals, summary: benchmark.draw_stages(found),
+    "rivals": lambda found, rivals, summary: benchmark.draw_rivals(rivals, summary["titles"]),
+}
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    parser.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="has the tables of `signorini benchmark gather`"
+    )
+    parser.add_argument("--figure", choices=_FIGURES, required=True)
+    add_drawings(parser, "-o", "--output")
+
+
+def run(arguments):
+    """Draw."""
+    points = read_csv(arguments.folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ERRORS))
+    rivals = read_csv(arguments.folder / "rivals.csv", numbers=RIVAL_NUMBERS)
+    summary = read_json(arguments.folder / "summary.json")
+    figure = _FIGURES[arguments.figure](series(points), rivals, summary)
+    for path in arguments.output:
+        save_figure(figure, path)
+    return Outcome(f"figure: benchmark, {arguments.figure}")

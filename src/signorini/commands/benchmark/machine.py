@@ -1,0 +1,25 @@
+"""Write down the machine, the versions and the load before anything is measured.
+
+example:
+  signorini benchmark machine -o machine.json
+"""
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output
+from signorini.storage import write_json
+from signorini.studies.machine import OURS, describe, sentence
+from signorini.studies.rivals import RIVALS
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_output(parser, "the description, .json", required=False)
+
+
+def run(arguments):
+    """Describe the machine."""
+    packages = [*OURS, *sorted({rival.package for rival in RIVALS.values()} - set(OURS))]
+    machine = describe(packages)
+    if arguments.output:
+        write_json(arguments.output, machine)
+    return Outcome(sentence(machine), machine)

@@ -1,0 +1,38 @@
+"""Write the benchmark's page, benchmark.tex and benchmark.md, beside its tables.
+
+example:
+  signorini benchmark report results/studies/benchmark --scenes results/paper/scene.json
+"""
+
+from pathlib import Path
+
+from signorini.commands.benchmark.options import add_scenes, add_settings, scenes_of, settings_of
+from signorini.commands.catalogue import Outcome
+from signorini.storage import read_csv, read_json, write_text
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.studies.benchmark.report import Report
+from signorini.studies.benchmark.settings import own_references
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    parser.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="has the tables of `signorini benchmark gather`"
+    )
+    add_scenes(parser)
+    add_settings(parser)
+
+
+def run(arguments):
+    """Write the page."""
+    folder = arguments.folder
+    report = Report(
+        read_csv(folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ERRORS)),
+        read_csv(folder / "rivals.csv", numbers=RIVAL_NUMBERS),
+        read_json(folder / "summary.json"),
+        read_json(folder / "machine.json"),
+        settings_of(arguments) | {"truths": own_references(scenes_of(arguments))},
+    )
+    write_text(folder / "benchmark.tex", report.tex())
+    write_text(folder / "benchmark.md", report.markdown())
+    return Outcome(f"report: {len(report.series)} series, {len(report.summary['duels'])} duels")

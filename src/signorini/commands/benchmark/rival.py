@@ -1,0 +1,47 @@
+"""Measure a rival and our routes in turn, on the same matrices, level by level.
+
+example:
+  signorini benchmark rival config/scenes/corner.yaml --element P1 --rival bvls -o bvls.csv
+"""
+
+from signorini.commands.benchmark.options import add_settings, settings_of
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.storage import write_csv
+from signorini.studies.benchmark.columns import RIVAL
+from signorini.studies.benchmark.rivals import duel, guarded, patience
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("--element", choices=("P1", "CR"), required=True)
+    parser.add_argument("--rival", required=True, metavar="NAME")
+    parser.add_argument("--mesh", metavar="FILE", help="of `signorini mesh`; else made anew")
+    add_settings(parser)
+    add_output(parser, "the rows, .csv")
+
+
+def rounds(rival, path, mesh, element, levels, seconds):
+    """The rows of the comparison, from what can be sent to another process."""
+    scene = scene_of(path)
+    domain = domain_of(scene, mesh)
+    yield from duel(rival, domain, scene.problem, element, levels, seconds)
+
+
+def run(arguments):
+    """Measure, and write a row for each level and route of ours."""
+    settings, scene = settings_of(arguments)["rivals"], scene_of(arguments.scene)
+    levels, seconds = settings["levels"], settings["seconds"]
+    task = (arguments.rival, arguments.scene, arguments.mesh, arguments.element, levels, seconds)
+    found, trouble = guarded(rounds, task, patience(seconds))
+    rows = [row for level in found for row in level]
+    if trouble:
+        missing = [n for n in levels if n not in {row.get("n") for row in rows}]
+        level = missing[0] if missing else levels[-1]
+        rows.append({"n": level, "status": "failed", "note": trouble})
+    what = {"scene": scene.name, "element": arguments.element, "rival": arguments.rival}
+    write_csv(arguments.output, [{name: (row | what).get(name) for name in RIVAL} for row in rows])
+    return Outcome(
+        f"{' '.join(what.values())}: {len(rows)} rows, {rows[-1]['status']} at the last", rows
+    )

@@ -1,0 +1,1 @@
+"""Commands of the study `sensitivity`, one file each."""

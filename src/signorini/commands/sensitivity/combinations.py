@@ -1,0 +1,36 @@
+"""Hold every combination of choices against the published numbers.
+
+example:
+  signorini sensitivity combinations config/scenes/paper.yaml rising.csv falling.csv \\
+      --published config/published/table_5_1.csv -o FOLDER
+"""
+
+from pathlib import Path
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_scene, scene_of
+from signorini.commands.sensitivity.options import add_quick, levels_of
+from signorini.storage import read_table, write_csv
+from signorini.studies.sensitivity.combinations import combinations, ratios, read_errors
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
+    parser.add_argument("--published", required=True, metavar="FILE")
+    add_quick(parser)
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+
+
+def run(arguments):
+    """Compare, and write sensitivity.csv and sensitivity_ratios.csv."""
+    levels = levels_of(scene_of(arguments.scene), arguments.quick)
+    errors = read_errors(arguments.errors, levels)
+    rows = combinations(errors, read_table(arguments.published))
+    write_csv(arguments.output / "sensitivity.csv", rows)
+    write_csv(arguments.output / "sensitivity_ratios.csv", ratios(errors))
+    best, count = max(row["matched"] for row in rows), rows[0]["errors"]
+    return Outcome(
+        f"sensitivity: {len(rows)} combinations, the best matches {best} of {count} errors"
+    )

@@ -1,0 +1,30 @@
+"""Solve a scene with one diagonal of the cells and measure its errors under all other choices.
+
+example:
+  signorini sensitivity errors config/scenes/paper.yaml --diagonal rising -o rising.csv
+"""
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output, add_scene, scene_of
+from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
+from signorini.storage import write_csv
+from signorini.studies.sensitivity.solves import errors_of_diagonal
+from signorini.studies.sensitivity.unsaid import count_solves
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("--diagonal", required=True, metavar="NAME")
+    add_quick(parser)
+    add_output(parser, "the errors, .csv")
+
+
+def run(arguments):
+    """Solve, measure and write."""
+    scene, quick = scene_of(arguments.scene), arguments.quick
+    rows = errors_of_diagonal(
+        scene.problem, arguments.diagonal, levels_of(scene, quick), reference_of(scene, quick)
+    )
+    write_csv(arguments.output, rows)
+    return Outcome(f"sensitivity: {arguments.diagonal}, {count_solves(rows)} solves")

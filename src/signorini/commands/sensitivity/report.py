@@ -1,0 +1,36 @@
+"""Write the page of the sensitivity study: what the combinations show.
+
+example:
+  signorini sensitivity report config/scenes/paper.yaml rising.csv falling.csv \\
+      --published config/published/table_5_1.csv -o FOLDER
+"""
+
+from pathlib import Path
+
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_scene, scene_of
+from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
+from signorini.storage import read_table, write_text
+from signorini.studies.page import to_latex, to_markdown
+from signorini.studies.sensitivity.combinations import combinations, read_errors
+from signorini.studies.sensitivity.page import page
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
+    parser.add_argument("--published", required=True, metavar="FILE")
+    add_quick(parser)
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+
+
+def run(arguments):
+    """Write sensitivity.tex and sensitivity.md."""
+    scene, quick = scene_of(arguments.scene), arguments.quick
+    errors = read_errors(arguments.errors, levels_of(scene, quick))
+    rows = combinations(errors, read_table(arguments.published))
+    title, blocks = page(rows, errors, reference_of(scene, quick), quick)
+    write_text(arguments.output / "sensitivity.tex", to_latex(title, blocks))
+    write_text(arguments.output / "sensitivity.md", to_markdown(title, blocks))
+    return Outcome(f"page: {title}")

@@ -1,0 +1,1 @@
+"""Commands of the study `stability`, one file each."""

@@ -93,6 +93,9 @@ def main():
         "",
         "# brought in by them",
         *pins[False],
+        "",
+        "# the program signorini, of this folder",
+        "--editable .",
     ]
     (ROOT / "requirements.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print(f"requirements.txt: {len(pins[True])} asked for, {len(pins[False])} brought in")

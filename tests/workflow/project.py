@@ -10,9 +10,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from signorini.commands.catalogue import commands, module_of
+
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "workflow", "src", "config", "paper", "profiles"]
 TARGETS = {"default", "all"}
+# Command -> its file.
+FILES = {name: f"src/{module_of(name).replace('.', '/')}.py" for name in commands()}
 LATEX = bool(shutil.which("latexmk") and shutil.which("pdflatex"))
 # Folders that differ from run to run; everything else under results is a result.
 RECORDS = {"logs", "benchmarks"}
@@ -31,25 +35,34 @@ slope: mean
 outputs: [errors, rates, table, figures]
 """
 
-# Written beside the results by every Python process of a run: which modules it had loaded at its
-# end; and at once, for it may be killed, which rooms of the library it asks for, under the script
-# that started it.
+# Written beside the results by every Python process of a run, under the name of its command, or of
+# its program: which modules it had loaded at its end; and at once, for it may be killed, which rooms
+# of the library it asks for, also under the command that started it.
 SPY = """\
 import atexit, json, os, sys
 from pathlib import Path
 
+def name():
+    words = sys.orig_argv
+    if "signorini" not in words:
+        return "snakemake" if "snakemake" in words else Path(sys.argv[0]).name
+    words = words[words.index("signorini") + 1:]
+    count = 2 if words[:1] in (["benchmark"], ["sensitivity"], ["stability"]) else 1
+    return " ".join(words[:count])
+
 def tell():
-    Path(os.environ["SPY"], f"{os.getpid()}.json").write_text(json.dumps([sys.argv[0], sorted(sys.modules)]))
+    told = json.dumps([name(), sorted(sys.modules)])
+    Path(os.environ["SPY"], f"{os.getpid()}.json").write_text(told)
 
 class Finder:
     def find_spec(name, path=None, target=None):
-        if name.partition(".")[0] in ("signorini", "stage"):
+        if name.partition(".")[0] == "signorini":
             with open(os.environ["SPY"] + ".txt", "a") as stream:
-                stream.write(f"{os.environ.get('SPIED', '')} {name}\\n")
+                stream.write(f"{os.environ.get('SPIED', '')}|{name}\\n")
 
 if os.environ.get("SPY"):
-    if "workflow/scripts/" in sys.argv[0]:
-        os.environ["SPIED"] = Path(sys.argv[0]).name
+    if "signorini" in sys.orig_argv:
+        os.environ["SPIED"] = name()
     atexit.register(tell)
     sys.meta_path.insert(0, Finder)  # which finds nothing
 """
@@ -185,41 +198,42 @@ class Project:
 
 
 def modules_of(folder):
-    """Script -> modules that it had loaded, of a build made by `spied_build`; Snakemake itself is
-    `__main__.py`.
+    """Command -> modules that it had loaded, of a build made by `spied_build`; Snakemake itself is
+    `snakemake`.
     """
     found = {}
     for path in sorted((folder / "modules").iterdir()):
-        script, modules = json.loads(path.read_text())
-        found.setdefault(Path(script).name, set()).update(modules)
+        command, modules = json.loads(path.read_text())
+        found.setdefault(command, set()).update(modules)
     return found
 
 
 def rooms_of(folder):
-    """Script -> rooms of the library that its processes asked for, of a build made by
+    """Command -> rooms of the library that its processes asked for, of a build made by
     `spied_build`.
     """
     found = {}
     for line in (folder / "modules.txt").read_text().splitlines():
-        script, room = line.split(" ")
-        found.setdefault(script, set()).add(room)
-    return {script: rooms for script, rooms in found.items() if script}
+        command, room = line.split("|")
+        found.setdefault(command, set()).add(room)
+    return {command: rooms for command, rooms in found.items() if command}
 
 
-def inputs_of_scripts(text):
-    """Script -> library files among the inputs of its jobs, from a dry run's output."""
+def inputs_of_commands(text):
+    """Command -> library files among the inputs of its jobs, from a dry run's output."""
     inputs = {}
     for line in re.findall(r"^    input: (.*)$", text, re.M):
         files = set(line.split(", "))
-        for script in (file for file in files if file.startswith("workflow/scripts/")):
-            inputs.setdefault(script.rpartition("/")[2], set()).update(files)
+        for command, file in FILES.items():
+            if file in files:
+                inputs.setdefault(command, set()).update(files)
     return inputs
 
 
 def left_out(modules, inputs):
     """Rooms of the library that a job imported and that are not among its inputs."""
     own = [name for name in modules if name.partition(".")[0] == "signorini"]
-    stems = ["workflow/scripts/stage", *(f"src/{name.replace('.', '/')}" for name in own)]
+    stems = [f"src/{name.replace('.', '/')}" for name in own]
     files = {stem: {f"{stem}.py", f"{stem}/__init__.py"} for stem in stems}
     there = {
         stem: {file for file in names if (ROOT / file).is_file()} for stem, names in files.items()
@@ -228,12 +242,12 @@ def left_out(modules, inputs):
 
 
 def undeclared(project, folder, *arguments):
-    """Script -> rooms that its jobs asked for and did not declare, of a build made by `spied_build`
-    with arguments.
+    """Command -> rooms that its jobs asked for and did not declare, of a build made by
+    `spied_build` with arguments.
     """
     run = project.build(*arguments, "--dry-run", "--forceall", "--quiet", "host")
-    inputs, rooms = inputs_of_scripts(run.text), rooms_of(folder)
-    return {script: left_out(rooms[script], inputs[script]) for script in rooms if script in inputs}
+    inputs, rooms = inputs_of_commands(run.text), rooms_of(folder)
+    return {command: left_out(rooms[command], inputs[command]) for command in rooms.keys() & inputs}
 
 
 def side_by_side(function, cases):

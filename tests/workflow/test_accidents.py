@@ -20,14 +20,14 @@ from project import LATEX, ROOT
 
 from signorini.storage import write_text
 
-# Put at the top of a stage's script: tell the process number, and wait for the file to go.
+# Put at the end of a command's file: tell the process number, and wait for the file to go.
 NAP = """\
 import os, pathlib, time
 pathlib.Path("napping").write_text(str(os.getpid()))
 while pathlib.Path("napping").exists():
     time.sleep(0.02)
 """
-NAPPER = "workflow/scripts/errors.py"
+NAPPER = "src/signorini/commands/errors.py"
 AFTER = "results/small/rates.csv"
 
 

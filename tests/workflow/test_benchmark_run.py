@@ -6,7 +6,7 @@ import csv
 import re
 
 import pytest
-from project import inputs_of_scripts, modules_of, undeclared
+from project import FILES, inputs_of_commands, modules_of, undeclared
 
 from signorini.solvers import METHODS
 from signorini.studies.rivals import RIVALS
@@ -95,21 +95,16 @@ def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not
 def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
-    assert missing == {script: [] for script in missing}
-    assert missing.keys() >= {
-        path.name for path in (project / "workflow/scripts").glob("*benchmark*.py")
-    }
-    imports = {
-        script: modules for script, modules in modules_of(spied).items() if "benchmark" in script
-    }
+    assert missing == {command: [] for command in missing}
+    assert missing.keys() >= {command for command in FILES if command.startswith("benchmark ")}
+    imports = {name: found for name, found in modules_of(spied).items() if "benchmark" in name}
     assert len(imports) == 6
-    assert {script for script in imports if "matplotlib" in imports[script]} == {
-        "figure_benchmark.py"
-    }
+    drawing = {name for name in imports if "matplotlib" in imports[name]}
+    assert drawing == {"benchmark figure"}
 
 
 def test_rivals_are_inputs_of_their_duels(built):
-    inputs = inputs_of_scripts(
+    inputs = inputs_of_commands(
         built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text
     )
     needed = {
@@ -117,7 +112,7 @@ def test_rivals_are_inputs_of_their_duels(built):
         "src/signorini/solvers/direct.py",
         "src/signorini/mesh/grid.py",
     }
-    assert needed <= inputs["benchmark_rival.py"]
+    assert needed <= inputs["benchmark rival"]
 
 
 def test_there_is_nothing_left_to_do(built):

@@ -48,6 +48,7 @@ TRIED = {
     r"snakemake .*--workflow-profile profiles/slurm": lambda command: (
         f"{command} --dry-run" if SLURM else "true"
     ),
+    r"signorini .*": lambda command: f"PYTHONPATH=src python3 -m {command}",
     r"snakemake --unlock": str,
     r"snakemake --cores 2": str,  # which has nothing to do in this copy
     r"snakemake (.*)": lambda command: f"{command} --dry-run",

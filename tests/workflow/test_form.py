@@ -5,7 +5,7 @@ import shutil
 import subprocess
 
 import pytest
-from project import ROOT
+from project import FILES, ROOT
 
 RULES = {
     name: body
@@ -14,27 +14,33 @@ RULES = {
         r"^rule (\w+):\n((?: .*\n|\n)+)", path.read_text(encoding="utf-8"), re.M
     )
 }
-# A script that imports one of these rooms computes; the others format, draw or check.
+# A command that imports one of these computes; the others format, draw or check. What a study
+# measures tells its own time.
 COMPUTING = re.compile(
-    r"^from signorini\.(mesh|problem|solvers|errors|effects|contact_line|studies\.sensitivity)\b",
+    r"^from signorini\.(mesh\.domain|fem\.\w+|solvers|errors\.measure|report\.field"
+    r"|studies\.sensitivity\.(effects|solves)) ",
     re.M,
 )
 
 
 @pytest.mark.parametrize("rule", RULES)
 def test_rule(rule):
+    """A rule runs one command, which a person can type, and depends on what that can load."""
     body = RULES[rule]
-    script = re.search(r"workflow/scripts/(\w+\.py)", body).group(1)
-    assert f'library("{script}")' in body
+    shell = body.partition("    shell:\n")[2]
+    (words,) = re.findall(r"python3 -m signorini ([\w-]+(?: [a-z][\w-]+)?)", shell)
+    command = words if words in FILES else words.partition(" ")[0]
+    assert f'library("{command}")' in body
     assert "    log:\n" in body
     assert "2>&1 | tee {log:q}" in body
     (content,) = re.findall(r"^        content=content\((.*)\),$", body, re.M)
-    assert content.startswith(f'"{script}"')
+    assert content.startswith(f'"{command}"')
     sources = re.findall(
         r"^        (?:source|published)=(.*),$", body.partition("    output:")[0], re.M
     )
-    assert content.split(", ")[1:] == sources  # what else is no result
-    code = (ROOT / "workflow/scripts" / script).read_text(encoding="utf-8")
+    assert content.split(", ")[1:] == sources or rule == "scene"  # what else is no result
+    assert "json" not in shell
+    code = (ROOT / FILES[command]).read_text(encoding="utf-8")
     assert bool(COMPUTING.search(code)) == ("    benchmark:\n" in body)
 
 

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from project import LATEX, SMALL, inputs_of_scripts, left_out, modules_of, side_by_side
+from project import LATEX, SMALL, inputs_of_commands, left_out, modules_of, side_by_side
 
 from signorini.mesh.domain import read_domain
 
@@ -14,15 +14,17 @@ ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES
 SHOWN = {"field": 1, "contact_line": 1} | FIGURES
 SOLVES = {"reference": 1, "solve": 4} | SHOWN | ERRORS
 EVERYTHING = {"mesh": 1} | SOLVES
+SCENE = {"scene": 1}
 
 
 def test_clean_build(fresh):
-    assert fresh.jobs() == EVERYTHING
+    assert fresh.jobs() == EVERYTHING | SCENE
 
 
 def test_clean_build_of_the_paper(fresh):
     fresh.ask_for("paper")
     expected = {
+        "scene": 1,
         "mesh": 1,
         "reference": 1,
         "solve": 12,
@@ -52,26 +54,27 @@ MODULES = {
     "figures/surface.py": {},
     "figures/convergence.py": FIGURES,
     "figures/style.py": FIGURES,
-    "rates.py": {"rates": 1, "table": 1} | FIGURES,
+    "errors/rates.py": SCENE | {"rates": 1, "table": 1} | FIGURES,
     "errors/reference.py": ERRORS,
-    "contact_line.py": ERRORS | SHOWN,
-    "exact/harmonic.py": SOLVES,
+    "fem/contact_line.py": ERRORS | SHOWN,
+    "exact/harmonic.py": SCENE | EVERYTHING,
     "solvers/contact.py": SOLVES,
-    "mesh/domain.py": EVERYTHING,
-    "scene.py": {},
+    "mesh/domain.py": SCENE | EVERYTHING,
+    "scene/read.py": SCENE,
+    "scene/scene.py": SCENE | EVERYTHING,
 }
 
 # What is edited in the scene -> the text, its replacement, and what that starts.
 FIELDS = {
-    "title": ("title: A scene for tests", "title: Another", FIGURES),
-    "slope": ("slope: mean", "slope: fit", {"table": 1} | FIGURES),
-    "norms": ("norms: [l2, h1]", "norms: [l2]", ERRORS),
-    "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", ERRORS),
-    "outputs": ("[errors, rates, table, figures]", "[errors]", {}),
-    "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SOLVES),
-    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", ERRORS | SHOWN | {"solve": 2}),
-    "boundary": ("left: neumann", "left: dirichlet", EVERYTHING),
-    "domain": ("{kind: rectangle}", "{kind: rectangle, diagonal: rising}", EVERYTHING),
+    "title": ("title: A scene for tests", "title: Another", SCENE | FIGURES),
+    "slope": ("slope: mean", "slope: fit", SCENE | {"table": 1} | FIGURES),
+    "norms": ("norms: [l2, h1]", "norms: [l2]", SCENE | ERRORS),
+    "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", SCENE | ERRORS),
+    "outputs": ("[errors, rates, table, figures]", "[errors]", SCENE),
+    "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SCENE | SOLVES),
+    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", SCENE | ERRORS | SHOWN | {"solve": 2}),
+    "boundary": ("left: neumann", "left: dirichlet", SCENE | EVERYTHING),
+    "domain": ("{kind: rectangle}", "{kind: rectangle, diagonal: rising}", SCENE | EVERYTHING),
 }
 
 
@@ -122,23 +125,21 @@ def test_an_edited_file_of_the_paper(paper, file, line, expected):
 
 @pytest.mark.parametrize("scene", ["small", "paper"])
 def test_what_a_job_imports_is_among_its_inputs(all_jobs, spied, scene):
-    inputs = inputs_of_scripts(all_jobs[scene].text)
+    inputs = inputs_of_commands(all_jobs[scene].text)
     imports = modules_of(spied / scene)
-    scripts = inputs.keys() - {"stage.py"}
-    assert imports.keys() >= scripts
-    assert {script: left_out(imports[script], inputs[script]) for script in scripts} == {
-        script: [] for script in scripts
+    assert imports.keys() >= inputs.keys()
+    assert {command: left_out(imports[command], inputs[command]) for command in inputs} == {
+        command: [] for command in inputs
     }
 
 
 def test_a_process_imports_only_what_it_needs(built_small, spied):
     imports = modules_of(spied / "small")
-    drawing = {"figures.py"}
-    assert {script for script in imports if "matplotlib" in imports[script]} == drawing
-    assert {script for script in imports if {"yaml", "jsonschema"} & imports[script]} == {
-        "__main__.py"
-    }
-    assert not {"scipy", "skfem", "signorini.mesh", "signorini.solvers"} & imports["__main__.py"]
+    assert {name for name in imports if "matplotlib" in imports[name]} == {"figures"}
+    readers = {name for name in imports if {"yaml", "jsonschema"} & imports[name]}
+    assert readers == {"snakemake", "check"}
+    heavy = {"scipy", "skfem", "signorini.mesh.domain", "signorini.solvers"}
+    assert not heavy & imports["snakemake"]
 
 
 def test_all_files_of_the_paper(built_paper):
@@ -174,11 +175,11 @@ def test_what_is_not_asked_for_is_not_built(fresh, tmp_path, all_jobs):
     fresh.write("config/scenes/bare.yaml", f"{bare}solver: {{method: direct}}\n")
     fresh.ask_for("lean", "bare")
     run = fresh.spied_build(tmp_path / "spied")
-    assert run.jobs == {"mesh": 1, "reference": 1, "solve": 6, "errors": 1}
+    assert run.jobs == {"scene": 2, "mesh": 1, "reference": 1, "solve": 6, "errors": 1}
     imports = modules_of(tmp_path / "spied")
-    assert not [script for script in imports if "matplotlib" in imports[script]]
-    assert "signorini.solvers.direct" in imports["solve.py"]
-    assert not left_out(imports["solve.py"], inputs_of_scripts(all_jobs["small"].text)["solve.py"])
+    assert not [name for name in imports if "matplotlib" in imports[name]]
+    assert "signorini.solvers.direct" in imports["solve"]
+    assert not left_out(imports["solve"], inputs_of_commands(all_jobs["small"].text)["solve"])
     names = [f"bare/solutions/{element}/n{n}.npz" for element in ("CR", "P1") for n in (2, 4)]
     names += [
         "lean/errors.csv",
@@ -280,13 +281,13 @@ def test_a_mesh_file_and_the_code_that_reads_it_are_inputs(fresh, tmp_path):
     fresh.ask_for("gasket")
     target = "results/gasket/solutions/P1/n1.npz"
     fresh.spied_build(tmp_path / "spied", target)
-    inputs = inputs_of_scripts(
+    inputs = inputs_of_commands(
         fresh.build(target, "--dry-run", "--forceall", "--quiet", "host").text
     )
     imports = modules_of(tmp_path / "spied")
-    assert "meshio" in imports["-c"]  # the process that reads the file, started by mesh.py
-    assert left_out(imports["-c"] | imports["mesh.py"], inputs["mesh.py"]) == []
-    assert "meshio" not in imports["solve.py"]
+    assert "meshio" in imports["-c"]  # the process that reads the file, started by the command mesh
+    assert left_out(imports["-c"] | imports["mesh"], inputs["mesh"]) == []
+    assert "meshio" not in imports["solve"]
     assert fresh.jobs(target) == {}
     with open(fresh / "config/meshes/gasket.msh", "a") as stream:
         stream.write("\n")

@@ -3,7 +3,7 @@
 import shutil
 
 import pytest
-from project import LATEX, Project, undeclared
+from project import FILES, LATEX, Project, undeclared
 
 QUICK = ("sensitivity", "--config", "quick=true")
 JOBS = {
@@ -51,9 +51,8 @@ def test_a_quick_page_says_so(built):
 def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
-    assert missing == {
-        path.name: [] for path in (project / "workflow/scripts").glob("*sensitivity*.py")
-    }
+    own = [command for command in FILES if command.startswith("sensitivity ")]
+    assert missing == {command: [] for command in [*own, "check"]}
 
 
 def test_the_full_study_is_another(built):

@@ -7,7 +7,7 @@ import re
 from datetime import date
 
 import pytest
-from project import LATEX, Project, rooms_of, undeclared
+from project import FILES, LATEX, Project, rooms_of, undeclared
 
 from signorini.report.typeset import typeset
 from signorini.studies.stability.bodies import FAMILIES
@@ -37,12 +37,10 @@ def suite(built):
 
 def test_what_a_job_loads_is_among_its_inputs(built, spied):
     missing = undeclared(built, spied, *QUICK)
-    assert missing == {script: [] for script in missing}
-    own = {path.name for path in (built / "workflow/scripts").glob("*stability*.py")}
-    assert missing.keys() == own
-    assert (
-        "signorini.studies.rivals.bounded" in rooms_of(spied)["stability_success.py"]
-    )  # SciPy's, always there
+    own = [command for command in FILES if command.startswith("stability ")]
+    assert missing == {command: [] for command in [*own, "check"]}
+    found = rooms_of(spied)["stability success"]
+    assert "signorini.studies.rivals.bounded" in found  # SciPy's, always there
 
 
 def test_an_edited_rival_is_tried_again(built, tmp_path):

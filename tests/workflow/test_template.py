@@ -1,16 +1,15 @@
-"""config/template.yaml, which README says to start from: it names every key with its default, and
-it builds.
-"""
+"""The scene of `signorini new`: it names every key with its default, and it builds."""
 
 import re
 
 import pytest
 from project import ROOT, Project
 
+from signorini.commands.program import main
 from signorini.scene.read import load_scene, scene_schema
 from signorini.scene.strict_yaml import load_yaml
 
-TEMPLATE = ROOT / "config/template.yaml"
+TEMPLATE = ROOT / "src/signorini/scene/template.yaml"
 
 
 def keys_of(schema, path=()):
@@ -67,15 +66,13 @@ def test_what_it_leaves_out_has_that_default(written, tmp_path):
 def test_it_is_a_scene_that_builds_by_the_commands_of_the_readme(tmp_path):
     """Both README files give them; the levels are as they stand, the load by the default rule."""
     commands = [
-        "cp config/template.yaml config/scenes/mine.yaml",
+        "signorini new mine",
         "snakemake --cores 2 --config 'scenes=[mine]'",
     ]
     for page in ("README.md", "config/README.md"):
         assert "\n".join(commands) in (ROOT / page).read_text(encoding="utf-8"), page
     project = Project.fresh(tmp_path / "project")
-    project.write(
-        "config/scenes/mine.yaml", (project / "config/template.yaml").read_text(encoding="utf-8")
-    )
+    assert main(["new", "mine", "--folder", str(project / "config/scenes")]) == 0
     project.build("--config", "scenes=[mine]")
     built = project.results()
     assert {"mine/table.md", "mine/rates.csv", "mine/figures/solution.pdf"} <= set(built)

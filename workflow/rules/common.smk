@@ -1,4 +1,4 @@
-# What every rule relies on: the project's folder, the configuration, and what a job depends on.
+# What all rules rely on: the project folder, the configuration, and what a job depends on.
 import hashlib
 import json
 import os

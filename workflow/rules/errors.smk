@@ -1,29 +1,6 @@
 # From solutions to numbers: errors against the truth, their slopes, and whether they are what the scene expects.
 
 
-def reference_file(wildcards):
-    """The truth as an input of the errors: a file where it is a reference, none where it is exact."""
-    return [f"results/{wildcards.scene}/reference.npz"] * (
-        scene(wildcards.scene).truth["kind"] == "reference"
-    )
-
-
-def truth_part(wildcards):
-    """A parameter: what errors depend on besides their files, which is the statement of an exact scene."""
-    asked = scene(wildcards.scene)
-    return asked.statement if asked.truth["kind"] == "exact" else coefficient_part(asked.document)
-
-
-def coefficient_part(document):
-    """The diffusion coefficient, where a norm is weighted with it."""
-    return document["data"]["coefficient"] if "energy" in document["norms"] else None
-
-
-def reference_option(wildcards, input):
-    """Option of the errors for a reference, where there is one."""
-    return f"--reference {quote(str(input.reference))}" if input.reference else ""
-
-
 rule errors:
     input:
         library("errors"),

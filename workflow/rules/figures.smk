@@ -1,30 +1,6 @@
 # Figures: first the numbers that a figure shows, then the drawing.
 
 
-def drawn_norms(document):
-    return (
-        [norm for norm in document["norms"] if norm in RATED]
-        if "rates" in document["outputs"]
-        else []
-    )
-
-
-def shown(wildcards):
-    """What the figures of a scene show: the field, and as far as there are any the contact line, errors and slopes."""
-    document = scene(wildcards.scene).document
-    files = {"field": "field.npz"}
-    if "contact" in labels_of(document["boundary"]):
-        files |= {"line": "contact_line.csv"}
-    if drawn_norms(document):
-        files |= {"errors": "errors.csv", "rates": "rates.csv"}
-    return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
-
-
-def figure_options(wildcards):
-    """Options of the figures for what `shown` lists."""
-    return " ".join(f"--{name} {quote(value)}" for name, value in shown(wildcards).items())
-
-
 rule surface:
     input:
         library("surface"),

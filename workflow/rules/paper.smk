@@ -1,41 +1,5 @@
 # What only the scene "paper" has: the paper's own names for its table and figures, the check against the published
 # numbers, and the PDF.
-import atexit
-
-PUBLISHED = "config/published/table_5_1.csv"
-WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
-FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
-PAPER_SCENE = "results/paper/scene.json"
-
-
-def of_paper(*keys):
-    """A parameter: parts of the scene `paper`."""
-    return lambda wildcards: as_json(scene("paper").section(*keys))
-
-
-def paper_output():
-    """The check and the PDF, where the scene `paper` is asked for with all that they show."""
-    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(
-        scene("paper").document["outputs"]
-    ):
-        return []
-    return [
-        f"results/paper/{file}"
-        for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]
-    ]
-
-
-def appendix():
-    """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
-    fragments = [
-        folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))
-    ]
-    return [
-        part
-        for path in fragments
-        if path.is_file()
-        for part in (path, *sorted(path.parent.glob("*.pdf")))
-    ]
 
 
 use rule table as table_5_1 with:
@@ -172,13 +136,3 @@ rule paper:
     shell:
         "python3 -m signorini typeset {input.source:q} {input.parts:q} {input.figures:q}"
         " {params.appendix:q} --check {input.check:q} -o {output:q} 2>&1 | tee {log:q}"
-
-
-if WITHOUT and paper_output() and workflow.is_main_process:
-    # Snakemake's own onsuccess is silent where there is nothing to do.
-    atexit.register(
-        print,
-        f"results/paper/paper.pdf: not built, for want of {' and '.join(WITHOUT)}. On Debian: apt-get install latexmk"
-        " texlive-latex-recommended lmodern",
-        file=sys.stderr,
-    )

@@ -2,33 +2,6 @@
 # Priorities follow the longest chain, from the reference by errors and rates to their figures.
 
 
-def method(wildcards):
-    """The scene's route."""
-    return scene(wildcards.scene).document["solver"]["method"]
-
-
-def solutions(name):
-    asked = scene(name)
-    return [
-        f"results/{name}/solutions/{element}/n{n}.npz"
-        for element in asked.elements
-        for n in asked.levels
-    ]
-
-
-def solution_files(wildcards):
-    return solutions(wildcards.scene)
-
-
-def finest(wildcards, element=None):
-    asked = scene(wildcards.scene)
-    return f"results/{wildcards.scene}/solutions/{element or asked.elements[0]}/n{asked.levels[-1]}.npz"
-
-
-def finest_of_each(wildcards):
-    return [finest(wildcards, element) for element in scene(wildcards.scene).elements]
-
-
 rule solve:
     input:
         library("solve"),

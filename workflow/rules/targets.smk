@@ -1,4 +1,40 @@
 # What is built: by the scenes that the configuration asks for, and of each what it asks for itself.
+import atexit
+
+PUBLISHED = "config/published/table_5_1.csv"
+WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
+FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
+PAPER_SCENE = "results/paper/scene.json"
+
+
+def of_paper(*keys):
+    """A parameter: parts of the scene `paper`."""
+    return lambda wildcards: as_json(scene("paper").section(*keys))
+
+
+def paper_output():
+    """The check and the PDF, where the scene `paper` is asked for with all that they show."""
+    if "paper" not in CONFIG["scenes"] or {"rates", "table", "figures"} - set(
+        scene("paper").document["outputs"]
+    ):
+        return []
+    return [
+        f"results/paper/{file}"
+        for file in ("check.csv", "check.txt", "paper.pdf")[: 2 if WITHOUT else 3]
+    ]
+
+
+def appendix():
+    """Fragments of the studies built so far, with their figures: parts of the PDF that no build of the paper waits for."""
+    fragments = [
+        folder / f"{folder.name}.tex" for folder in sorted(Path("results/studies").glob("*"))
+    ]
+    return [
+        part
+        for path in fragments
+        if path.is_file()
+        for part in (path, *sorted(path.parent.glob("*.pdf")))
+    ]
 
 
 def scene_output(name):
@@ -24,3 +60,13 @@ def all_scenes():
 
 def final_output():
     return [file for name in CONFIG["scenes"] for file in scene_output(name)] + paper_output()
+
+
+if WITHOUT and paper_output() and workflow.is_main_process:
+    # Snakemake's own onsuccess is silent where there is nothing to do.
+    atexit.register(
+        print,
+        f"results/paper/paper.pdf: not built, for want of {' and '.join(WITHOUT)}. On Debian: apt-get install latexmk"
+        " texlive-latex-recommended lmodern",
+        file=sys.stderr,
+    )

@@ -1,0 +1,195 @@
+# Scenes, read and checked before any job starts, and what the jobs of a scene depend on.
+
+from signorini.mesh.boundary import labels_of
+from signorini.mesh.files import files_read
+from signorini.scene.read import check_name, read_scene
+
+
+@cache
+@reported
+def scene(name):
+    asked = written(name)
+    if asked.problem.needs_mesh:
+        check_once(asked)
+    return asked
+
+
+@cache
+@reported
+def written(name):
+    """A scene of which only its file has been read."""
+    check_name(name)
+    path = Path("config/scenes", f"{name}.yaml")
+    if not path.is_file():
+        place = (
+            f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
+        )
+        raise SignoriniError(f"{place}: there is no {path}; {nearest(name, known_scenes())}")
+    found = read_scene(path)
+    for line in found.warnings:
+        print(f"warning: {path}: {line}", file=sys.stderr)
+    return found
+
+
+def check_once(asked):
+    """Check what takes numpy and a mesh, and remember by a file that this scene has passed this library's checks."""
+    domain = asked.document["domain"]
+    files = files_read(domain["file"]) if domain["kind"] == "mesh" else []
+    seen = as_json([asked.statement, digest(files), digest_of_checks()])
+    mark = Path(".snakemake/checked", hashlib.sha256(seen.encode()).hexdigest())
+    if mark.is_file():
+        return
+    asked.check()
+    with suppress(OSError):  # it will be checked again
+        mark.parent.mkdir(parents=True, exist_ok=True)
+        mark.touch()
+
+
+@cache
+def digest_of_checks():
+    """What is in the files that check a scene."""
+    return digest(modules_from("signorini.scene.statement"))
+
+
+def known_scenes():
+    return sorted(path.stem for path in Path("config/scenes").glob("*.yaml"))
+
+
+def scene_file(wildcards):
+    """The validated scene, an input that starts no job: params hold the parts on which a job depends."""
+    return f"results/{wildcards.scene}/scene.json"
+
+
+def statement(wildcards):
+    """What a discretisation depends on, as JSON: it reruns when this changes and only then."""
+    return statement_of(wildcards.scene)
+
+
+def statement_of(name):
+    return as_json(scene(name).statement)
+
+
+def check_memory(jobs):
+    """Refuse to start where a job could not hold its level; on a cluster each job says so itself."""
+    from signorini.scene.memory_check import check_level
+
+    for job in jobs:
+        if job.rule.name in ("solve", "reference"):
+            name, n = job.wildcards.scene, int(job.params.get("n") or job.wildcards.n)
+            element = job.params.get("element") or job.wildcards.element
+            try:
+                check_level(scene(name).problem, element, n, job.params.method)
+            except SignoriniError as error:
+                sys.exit(f"error: config/scenes/{name}.yaml: {error}")
+
+
+def parts(*keys):
+    """A parameter: the parts of a scene on which a job depends; it runs again when they change and only then."""
+    return lambda wildcards: as_json(scene(wildcards.scene).section(*keys))
+
+
+def reference_note(wildcards):
+    """What a table says of a reference that is hardly finer than the finest level; empty where it is fine enough."""
+    return scene(wildcards.scene).reference_note or ""
+
+
+def domain_of(name):
+    asked = written(name)
+    return asked.section("domain", "boundary") | {"coarsest": asked.levels[0]}
+
+
+@cache
+def mesh_key(name):
+    """Scenes with the same domain, boundary and coarsest level have the same mesh."""
+    return hashlib.sha256(as_json(domain_of(name)).encode()).hexdigest()[:12]
+
+
+@cache
+def scene_of_mesh(key):
+    """Of the scenes asked for first, so that a broken file elsewhere in config/scenes does no harm."""
+    names = dict.fromkeys([*CONFIG["scenes"], *known_scenes()])
+    return next(name for name in names if mesh_key(name) == key)
+
+
+def mesh_source(wildcards):
+    """The files that the domain is read from."""
+    domain = domain_of(scene_of_mesh(wildcards.mesh))["domain"]
+    return list(map(str, files_read(domain["file"]))) if domain["kind"] == "mesh" else []
+
+
+def mesh_file(wildcards):
+    return f"results/meshes/{mesh_key(wildcards.scene)}.npz"
+
+
+def method(wildcards):
+    """The scene's route."""
+    return scene(wildcards.scene).document["solver"]["method"]
+
+
+def solutions(name):
+    asked = scene(name)
+    return [
+        f"results/{name}/solutions/{element}/n{n}.npz"
+        for element in asked.elements
+        for n in asked.levels
+    ]
+
+
+def solution_files(wildcards):
+    return solutions(wildcards.scene)
+
+
+def finest(wildcards, element=None):
+    asked = scene(wildcards.scene)
+    return f"results/{wildcards.scene}/solutions/{element or asked.elements[0]}/n{asked.levels[-1]}.npz"
+
+
+def finest_of_each(wildcards):
+    return [finest(wildcards, element) for element in scene(wildcards.scene).elements]
+
+
+def reference_file(wildcards):
+    """The truth as an input of the errors: a file where it is a reference, none where it is exact."""
+    return [f"results/{wildcards.scene}/reference.npz"] * (
+        scene(wildcards.scene).truth["kind"] == "reference"
+    )
+
+
+def truth_part(wildcards):
+    """A parameter: what errors depend on besides their files, which is the statement of an exact scene."""
+    asked = scene(wildcards.scene)
+    return asked.statement if asked.truth["kind"] == "exact" else coefficient_part(asked.document)
+
+
+def coefficient_part(document):
+    """The diffusion coefficient, where a norm is weighted with it."""
+    return document["data"]["coefficient"] if "energy" in document["norms"] else None
+
+
+def reference_option(wildcards, input):
+    """Option of the errors for a reference, where there is one."""
+    return f"--reference {quote(str(input.reference))}" if input.reference else ""
+
+
+def drawn_norms(document):
+    return (
+        [norm for norm in document["norms"] if norm in RATED]
+        if "rates" in document["outputs"]
+        else []
+    )
+
+
+def shown(wildcards):
+    """What the figures of a scene show: the field, and as far as there are any the contact line, errors and slopes."""
+    document = scene(wildcards.scene).document
+    files = {"field": "field.npz"}
+    if "contact" in labels_of(document["boundary"]):
+        files |= {"line": "contact_line.csv"}
+    if drawn_norms(document):
+        files |= {"errors": "errors.csv", "rates": "rates.csv"}
+    return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
+
+
+def figure_options(wildcards):
+    """Options of the figures for what `shown` lists."""
+    return " ".join(f"--{name} {quote(value)}" for name, value in shown(wildcards).items())

@@ -128,7 +128,7 @@ rule benchmark_gather:
         content=content("benchmark gather"),
         measured=benchmark_settings("scenes"),
         asked=benchmark_errors_asked,
-        folder=BENCHMARK,
+        folder=subpath(output[0], parent=True),
         settings=SETTINGS,
     shell:
         "python3 -m signorini benchmark gather --scenes {input.scenes:q} --points {input.points:q}"
@@ -149,7 +149,7 @@ rule benchmark_figure:
         f"{BENCHMARK}/logs/figure_{{figure}}.log",
     params:
         content=content("benchmark figure"),
-        folder=BENCHMARK,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini benchmark figure {params.folder:q} --figure {wildcards.figure}"
         " -o {output:q} 2>&1 | tee {log:q}"
@@ -179,7 +179,7 @@ rule benchmark:
         content=content("benchmark report"),
         measured=benchmark_settings(),
         truths=lambda wildcards: as_json([scene(name).truth for name in measured()["scenes"]]),
-        folder=BENCHMARK,
+        folder=subpath(output[0], parent=True),
         settings=SETTINGS,
     shell:
         "python3 -m signorini benchmark report {params.folder:q} --scenes {input.scenes:q}"

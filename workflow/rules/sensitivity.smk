@@ -42,7 +42,7 @@ rule sensitivity_combinations:
         content=content("sensitivity combinations", PUBLISHED),
         asked=of_paper("levels"),
         quick=QUICK_OPTION,
-        folder=SENSITIVITY,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini sensitivity combinations {input.scene:q} {input.errors:q}"
         " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"
@@ -60,7 +60,7 @@ rule figure_sensitivity:
         f"{SENSITIVITY}/logs/figure.log",
     params:
         content=content("sensitivity figures"),
-        folder=SENSITIVITY,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini sensitivity figures {params.folder:q} 2>&1 | tee {log:q}"
 
@@ -83,7 +83,7 @@ rule sensitivity:
         content=content("sensitivity report", PUBLISHED),
         asked=of_paper("levels", "truth"),
         quick=QUICK_OPTION,
-        folder=SENSITIVITY,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini sensitivity report {input.scene:q} {input.errors:q}"
         " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"

@@ -96,7 +96,7 @@ rule stability_report:
         content=content("stability report"),
         limit=0.1 if QUICK else 1,
         seeds=SEEDS,
-        folder=STABILITY,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini stability report {params.folder:q} --time-limit {params.limit}"
         " --seeds {params.seeds} 2>&1 | tee {log:q}"
@@ -117,6 +117,6 @@ rule figure_stability:
         f"{STABILITY}/logs/figures.log",
     params:
         content=content("stability figures"),
-        folder=STABILITY,
+        folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini stability figures {params.folder:q} 2>&1 | tee {log:q}"

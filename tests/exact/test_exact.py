@@ -9,13 +9,13 @@ import pytest
 
 from signorini.errors.exact import ExactErrors
 from signorini.exact import FAMILIES, Diffused, FormulaSolution, derived_data, family, read_exact
-from signorini.exact.boundary_trace import find_side
 from signorini.exact.check import check_data
 from signorini.exact.samples import Samples
 from signorini.exceptions import FormulaError, SceneError
 from signorini.fem.problem import discretize
 from signorini.fem.quadrature import interval_rule, triangle_rule
 from signorini.formula import Formula
+from signorini.mesh.boundary_trace import find_boundary_trace
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
@@ -282,20 +282,6 @@ def test_derived_values_that_are_not_finite_name_the_field_and_the_point():
         derived_data(SOLUTIONS["typed"]).f(np.zeros(1), np.zeros(1))
 
 
-def test_normals_point_outwards():
-    expected = {"contact": (0, -1), "dirichlet": (0, 1)}
-    for mesh in (grid(), skewed()):
-        for label, normal in expected.items():
-            np.testing.assert_allclose(
-                find_side(mesh, label).normal, np.tile(normal, (4, 1)).T, atol=1e-15
-            )
-        neumann = find_side(mesh, "neumann")
-        np.testing.assert_allclose(
-            neumann.normal[0], np.where(neumann.ends[0, 0] > 0, 1, -1), atol=1e-15
-        )
-        np.testing.assert_array_equal(np.sort(neumann.facets), mesh.boundary_facets("neumann"))
-
-
 @solutions
 def test_divergence_theorem(name):
     """What flows in as load flows out through the sides; kinks of f and roots in g limit the
@@ -308,8 +294,8 @@ def test_divergence_theorem(name):
     s, weights = interval_rule(25)
     out = 0.0
     for label in ("contact", "neumann", "dirichlet"):
-        side = find_side(mesh, label)
-        out += side.length @ data.g(*side.points(s), *side.normal[:, :, None]) @ weights
+        trace = find_boundary_trace(mesh, label)
+        out += trace.length @ data.g(*trace.points(s), *trace.normal[:, :, None]) @ weights
     assert load + out == pytest.approx(0.0, abs=2e-3)
 
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.exact.boundary_trace import find_side
 from signorini.fem.quadrature import triangle_rule
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula
+from signorini.mesh.boundary_trace import find_boundary_trace
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.grid import Grid
 from signorini.mesh.labels import NamedMesh
@@ -106,18 +106,12 @@ def _counterclockwise(mesh):
 
 
 def _on_side(mesh, label):
-    """x, y, nx, ny of points in equal distances on the facets that carry a label; three on each at
-    least.
-    """
-    side = find_side(mesh, label)
-    counts = np.maximum(
-        3, np.ceil(ON_SIDES * side.length / max(side.length.sum(), np.finfo(float).tiny))
-    ).astype(int)
-    of = np.repeat(np.arange(counts.size), counts)
-    first = np.repeat(np.cumsum(counts) - counts, counts)
-    s = (np.arange(of.size) - first + 0.5) / counts[of]
-    start, end = side.ends[:, 0, of], side.ends[:, 1, of]
-    return (*(start + s * (end - start)), *side.normal[:, of])
+    """x, y, nx, ny of evenly spaced points on the facets with a label, three on each at least."""
+    trace = find_boundary_trace(mesh, label)
+    total = max(trace.length.sum(), np.finfo(float).tiny)  # zero where no facet has the label
+    counts = np.maximum(3, np.ceil(ON_SIDES * trace.length / total)).astype(int)
+    points, facets = trace.evenly_spaced(counts)
+    return (*points, *trace.normal[:, facets])
 
 
 def _labelled(sides, boundary):

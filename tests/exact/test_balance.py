@@ -142,7 +142,8 @@ ACCEPTED = {
         {},
     ),
     "round interface": (
-        "where(hypot(x-.4, y-.6) < .25, (hypot(x-.4, y-.6)**2 - 1/16)*8/3, log(4*hypot(x-.4, y-.6)))",
+        "where(hypot(x-.4, y-.6) < .25, (hypot(x-.4, y-.6)**2 - 1/16)*8/3, "
+        "log(4*hypot(x-.4, y-.6)))",
         "where(hypot(x-.4, y-.6) < .25, 3, 1)",
         {},
     ),

@@ -6,7 +6,8 @@ import pytest
 from signorini.exact import family
 from signorini.exceptions import FormulaError
 from signorini.formula import Formula, taylor
-from signorini.formula.expressions import Graph, compile_code, evaluate
+from signorini.formula.evaluation import compile_code, evaluate
+from signorini.formula.expressions import Graph
 
 X, Y = np.linspace(0.1, 1.0, 7)[None, :], np.linspace(-1.0, 1.0, 5)[:, None]
 

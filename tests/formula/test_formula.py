@@ -1,6 +1,7 @@
 """Formulas: what is refused and how, values against plain numpy."""
 
 import doctest
+import importlib
 import math
 import os
 import pickle
@@ -455,11 +456,16 @@ def test_value_does_not_depend_on_neighbours():
 
 
 def test_reading_does_not_import_numpy():
+    """Nor does the constant of a plain number."""
     code = (
-        "import sys; from signorini.formula import Formula; f = Formula('r**(3/2)*cos(3*theta/2)')\n"
+        "import sys\n"
+        "from signorini.formula import Formula\n"
+        "f = Formula('r**(3/2)*cos(3*theta/2)')\n"
         "try: Formula('sinn(x)')\n"
         "except Exception: pass\n"
-        "f.gradient(); f.variables; hash(f); assert 'numpy' not in sys.modules"
+        "f.gradient(); f.variables; hash(f)\n"
+        "assert f.constant is None and Formula('1.0').constant == 1.0\n"
+        "assert 'numpy' not in sys.modules"
     )
     source = Path(signorini.formula.__file__).parents[2]
     subprocess.run(
@@ -467,7 +473,10 @@ def test_reading_does_not_import_numpy():
     )
 
 
-def test_examples_of_the_documentation():
-    outcome = doctest.testmod(signorini.formula)
+@pytest.mark.parametrize(
+    "module", ["", ".evaluation", ".expressions", ".grammar", ".lexicon", ".taylor", ".values"]
+)
+def test_examples_of_the_documentation(module):
+    outcome = doctest.testmod(importlib.import_module(f"signorini.formula{module}"))
     assert outcome.attempted
     assert not outcome.failed

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.exact.boundary_trace import find_side
+from signorini.mesh.boundary_trace import find_boundary_trace as find_side
 from signorini.mesh.grid import Grid
 
 _EPS = float(np.finfo(float).eps)

@@ -8,8 +8,8 @@ functions for u, by constants for its gradient and for the contact force.
 import numpy as np
 
 from signorini.errors.graded import root, scaled_weight, square
-from signorini.exact.boundary_trace import find_side
 from signorini.fem.quadrature import interval_rule, triangle_rule
+from signorini.mesh.boundary_trace import find_boundary_trace as find_side
 
 _DEGREE = 4  # the fit of a parabola is exact
 _TRIANGLES_AT_ONCE = 2**13

@@ -1,10 +1,9 @@
-"""Exact solutions of Signorini problems: from a formula, or from a named family; the data follow
-from them.
-"""
+"""Exact solutions of Signorini problems, from a formula or a named family, and their data."""
 
 from signorini.exact.data import derived_data
+from signorini.exact.diffused import Diffused, with_coefficient
 from signorini.exact.families import FAMILIES, family, read_exact
-from signorini.exact.solution import Diffused, ExactSolution, FormulaSolution
+from signorini.exact.solution import ExactSolution, FormulaSolution
 
 __all__ = [
     "FAMILIES",
@@ -14,4 +13,5 @@ __all__ = [
     "derived_data",
     "family",
     "read_exact",
+    "with_coefficient",
 ]

@@ -6,17 +6,18 @@ from signorini.exact.balance import check_balance, scales
 from signorini.exact.data import derived_data
 from signorini.exceptions import SceneError
 
-TOLERANCE = 1e-8
+_TOLERANCE = 1e-8
 
 
-def check_data(exact, data, samples, tolerance=TOLERANCE):
+def check_data(exact, data, samples, tolerance=_TOLERANCE):
     """Compare data with those of an exact solution, and check that it solves the Signorini problem.
 
     Parameters
     ----------
     exact : ExactSolution
     data : Data
-        Each typed, or derived; a typed obstacle is compared where the solution has one of its own.
+        Each given by the user, or derived. An obstacle is compared where the solution has one of
+        its own.
     samples : Samples
     tolerance : float
         Largest difference, relative to the largest value among the samples: of the datum or u for
@@ -30,57 +31,77 @@ def check_data(exact, data, samples, tolerance=TOLERANCE):
         or complementarity fails on the contact side, or where u or its flux jumps inside.
     FormulaError
         Where a value is not finite.
+
+    Examples
+    --------
+    >>> from signorini.exact import derived_data, family
+    >>> from signorini.exact.samples import Samples
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> samples = Samples.of(Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    >>> exact = family("smooth")
+    >>> check_data(exact, derived_data(exact), samples)
     """
-    derived, measured = derived_data(exact), scales(exact, samples.cells)
-    inside, extent = samples.inside, float(np.ptp(samples.cells, axis=(1, 2)).max())
-    u_size, slope = _largest(exact.value(*samples.cells)), measured.slope
+    derived = derived_data(exact)
+    measured = scales(exact, samples.cells)
+    inside, contact = samples.inside, samples.contact
+    extent = float(np.ptp(samples.cells, axis=(1, 2)).max())
+    u_size = _largest(exact.value(*samples.cells))
+    slope = measured.slope
+    compared = [
+        # name, given, derived, points, size of what it is compared with
+        ("dirichlet", data.dirichlet, derived.dirichlet, samples.dirichlet[:2], u_size),
+        ("g", data.g, derived.g, samples.neumann, slope),
+        ("coefficient", data.coefficient, derived.coefficient, inside, 0.0),
+    ]
     if data.f != derived.f:
-        _compare("f", data.f, derived.f, inside, slope / extent, tolerance)
-    _compare(
-        "dirichlet", data.dirichlet, derived.dirichlet, samples.dirichlet[:2], u_size, tolerance
-    )
-    _compare("g", data.g, derived.g, samples.neumann, slope, tolerance)
-    _compare("coefficient", data.coefficient, derived.coefficient, inside, 0.0, tolerance)
+        compared.insert(0, ("f", data.f, derived.f, inside, slope / extent))
     if exact.obstacle is not None:
-        _compare("obstacle", data.obstacle, exact.obstacle, samples.contact[:2], u_size, tolerance)
-    check_contact(exact, data.obstacle, samples.contact, u_size, slope, tolerance)
+        compared.append(("obstacle", data.obstacle, exact.obstacle, contact[:2], u_size))
+    for name, given, expected, points, size in compared:
+        _compare(name, given, expected, points, size, tolerance)
+    _check_contact(exact, data.obstacle, contact, u_size, slope, tolerance)
     check_balance(exact, data.f, samples.cells, measured)
 
 
-def check_contact(exact, obstacle, points, u_size, slope, tolerance=TOLERANCE):
-    """Check u >= obstacle, du/dnu >= 0 and their complementarity at points (x, y, nx, ny) of the
-    contact side.
+def _check_contact(exact, obstacle, points, u_size, slope, tolerance):
+    """Check Signorini's conditions at points (x, y, nx, ny) of the contact side.
 
-    Gaps are measured in units of `u_size`, fluxes in units of `slope`. Raises SceneError at the
-    first worst point.
+    Gaps are measured in units of `u_size`, fluxes in units of `slope`. The error names the worst
+    point of the first condition that fails.
     """
     x, y, nx, ny = points
     u, alpha, flux = exact.value(x, y), obstacle(x, y), exact.flux(x, y, nx, ny)
-    gap_share, flux_share = _share(u - alpha, max(u_size, _largest(alpha))), _share(flux, slope)
-    for excess, failed in (
-        (-gap_share, "u >= obstacle"),
-        (-flux_share, "du/dnu >= 0"),
-        (np.minimum(gap_share, flux_share), "(u - obstacle) du/dnu = 0"),
-    ):
+    gap_share = _share(u - alpha, max(u_size, _largest(alpha)))
+    flux_share = _share(flux, slope)
+    conditions = {
+        "u >= obstacle": -gap_share,
+        "du/dnu >= 0": -flux_share,
+        "(u - obstacle) du/dnu = 0": np.minimum(gap_share, flux_share),
+    }
+    for condition, excess in conditions.items():
         if excess.size and excess.max() > tolerance:
             k = int(excess.argmax())
             raise SceneError(
-                f"truth: the exact solution fails {failed} on the contact side at (x, y) = ({x[k]:.6g}, {y[k]:.6g}): "
-                f"u = {u[k]:.6g}, obstacle = {alpha[k]:.6g}, du/dnu = {flux[k]:.6g}; change truth, obstacle or boundary"
+                f"truth: the exact solution fails {condition} on the contact side at (x, y) = "
+                f"({x[k]:.6g}, {y[k]:.6g}): u = {u[k]:.6g}, obstacle = {alpha[k]:.6g}, "
+                f"du/dnu = {flux[k]:.6g}; change truth, obstacle or boundary"
             )
 
 
 def _compare(name, given, derived, points, size, tolerance):
-    found = _evaluate(given, points)
+    """Check that a datum has the values of the derived one; it must be finite in any case."""
+    values = _evaluate(given, points)
     if given == derived:
         return
     expected = _evaluate(derived, points)
-    size = max(size, _largest(found), _largest(expected))
-    excess = np.abs(_share(found - expected, size))
+    size = max(size, _largest(values), _largest(expected))
+    excess = np.abs(_share(values - expected, size))
     if excess.size and excess.max() > tolerance:
         k = int(excess.argmax())
+        x, y = points[0][k], points[1][k]
         raise SceneError(
-            f"data.{name}: {found[k]:.10g} at (x, y) = ({points[0][k]:.6g}, {points[1][k]:.6g}), where the exact "
+            f"data.{name}: {values[k]:.10g} at (x, y) = ({x:.6g}, {y:.6g}), where the exact "
             f"solution gives {expected[k]:.10g}; correct it, or leave it out to have it derived"
         )
 

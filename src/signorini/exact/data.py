@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from signorini.exact.solution import Diffused, FormulaSolution
+from signorini.exact.solution import FormulaSolution
 from signorini.exceptions import FormulaError
 from signorini.fem.data import Data
 from signorini.formula import Formula
@@ -36,8 +36,25 @@ class Derived:
     checked: bool = False
 
     def __call__(self, x, y, *normal, check=True):
-        """Evaluate at points, where FormulaError names the first value that is not finite, if they
-        are checked.
+        """Evaluate at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+        *normal : array_like of float
+            Its components nx and ny, where the datum needs them; dimensionless.
+        check : bool
+            Whether a value that is not finite is an error.
+
+        Returns
+        -------
+        ndarray
+
+        Raises
+        ------
+        FormulaError
+            Naming the first value that is not finite, and its point.
         """
         import numpy as np
 
@@ -47,16 +64,16 @@ class Derived:
             values = self.function(x, y, *normal)
         bad = first_non_finite(values, x, y) if check and not self.checked else None
         if bad:
+            value, x_bad, y_bad = bad
             raise FormulaError(
-                f"{self.field}: value derived from the exact solution is {bad[0]!r} at (x, y) = "
-                f"({bad[1]!r}, {bad[2]!r}); change truth, or type the value"
+                f"{self.field}: value derived from the exact solution is {value!r} at (x, y) = "
+                f"({x_bad!r}, {y_bad!r}); change truth, or give the value"
             )
         return values
 
 
 def derived_data(exact):
-    """Data under which `exact` is the solution: its load f, its flux g, its values, and its
-    obstacle.
+    """Data under which `exact` is the solution: its load, its flux, its values, its obstacle.
 
     Parameters
     ----------
@@ -67,12 +84,20 @@ def derived_data(exact):
     Data
         Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The
         obstacle is the solution's own, or zero where it has none.
+
+    Examples
+    --------
+    >>> from signorini.exact.families import family
+    >>> data = derived_data(family("uniform-load", {"c": 2}))
+    >>> float(data.f(0.3, 0.4))
+    2.0
     """
     checked = isinstance(exact, FormulaSolution)
+    given = {} if exact.coefficient is None else {"coefficient": exact.coefficient}
     return Data(
         f=Derived("data.f", exact.load, exact.constant_load, checked=checked),
         g=Derived("data.g", exact.flux, needs_normal=True),
         dirichlet=Derived("data.dirichlet", exact.value, checked=checked),
         obstacle=exact.obstacle or Formula("0", "data.obstacle"),
-        **({"coefficient": exact.coefficient} if isinstance(exact, Diffused) else {}),
+        **given,
     )

@@ -4,10 +4,12 @@ Reading them imports no numpy: scenes are validated with it.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from signorini.exact.solution import Diffused, FormulaSolution
+from signorini.exact.diffused import with_coefficient
+from signorini.exact.solution import FormulaSolution
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.wording import nearest
@@ -22,8 +24,30 @@ class Parameter(NamedTuple):
     meaning: str = ""
 
     def read(self, given, field):
-        """Value of a number, or of a formula without variables such as 1/3; SceneError if out of
-        range.
+        """Value of a parameter that is given as a number or as a formula without variables.
+
+        Parameters
+        ----------
+        given : float or str
+            Such as 0.5 or "1/3".
+        field : str
+            Its name in the scene, for error messages.
+
+        Returns
+        -------
+        float
+
+        Raises
+        ------
+        SceneError
+            If the formula has variables, or the value is out of range.
+        FormulaError
+            If it is no number or formula.
+
+        Examples
+        --------
+        >>> Parameter(1.0, least=0.0).read("1/4", "truth.parameters.alpha")
+        0.25
         """
         formula = Formula(given, field)
         # Evaluating a formula imports numpy, which a plain number does not need.
@@ -31,9 +55,8 @@ class Parameter(NamedTuple):
         if value is None:
             raise SceneError(f"{field}: {given!r} is not constant; write a number")
         if value < self.least or (self.open and value == self.least):
-            raise SceneError(
-                f"{field}: {value:g} is not valid; it must be {'>' if self.open else '>='} {self.least:g}"
-            )
+            bound = f"{'>' if self.open else '>='} {self.least:g}"
+            raise SceneError(f"{field}: {value:g} is not valid; it must be {bound}")
         return value
 
 
@@ -51,8 +74,8 @@ class Family:
     """
 
     title: str
-    parameters: dict
-    build: object
+    parameters: dict[str, Parameter]
+    build: Callable
 
 
 def family(name, parameters=None, field="truth"):
@@ -74,8 +97,10 @@ def family(name, parameters=None, field="truth"):
 
     Raises
     ------
-    SceneError, FormulaError
-        If the family or a parameter is unknown, or a value is no number or out of range.
+    SceneError
+        If the family or a parameter is unknown, or a value is out of range or not constant.
+    FormulaError
+        If a value is no number or formula.
 
     Examples
     --------
@@ -115,27 +140,37 @@ def read_exact(truth, coefficient=None, field="truth"):
     Returns
     -------
     ExactSolution
+
+    Raises
+    ------
+    SceneError
+        If neither or both of u and family are there, or the family, a parameter or the coefficient
+        is not valid.
+    FormulaError
+        If a formula is not valid.
+
+    Examples
+    --------
+    >>> exact = read_exact({"u": "x*y"}, Formula("1 + x"))
+    >>> float(exact.load(2.0, 3.0))
+    -3.0
     """
-    exact = _read(truth, field)
-    return (
-        exact
-        if coefficient is None or coefficient.constant == 1.0
-        else Diffused(exact, coefficient)
-    )
-
-
-def _read(truth, field):
     if ("u" in truth) == ("family" in truth):
         raise SceneError(
-            f"{field}: an exact solution needs either u, a formula, or family, a name; give one of them"
+            f"{field}: an exact solution needs either u, a formula, or family, a name; "
+            "give one of them"
         )
     if "family" in truth:
-        return family(truth["family"], truth.get("parameters"), field)
-    critical, singular = (
-        tuple((float(x), float(y)) for x, y in truth.get(key) or ())
-        for key in ("critical_points", "singular_points")
-    )
-    return FormulaSolution(Formula(truth["u"], f"{field}.u"), None, critical, singular or critical)
+        exact = family(truth["family"], truth.get("parameters"), field)
+    else:
+        critical = _points(truth, "critical_points")
+        singular = _points(truth, "singular_points") or critical
+        exact = FormulaSolution(Formula(truth["u"], f"{field}.u"), None, critical, singular)
+    return with_coefficient(exact, coefficient)
+
+
+def _points(truth, key):
+    return tuple((float(x), float(y)) for x, y in truth.get(key) or ())
 
 
 def _corner(**parameters):
@@ -151,17 +186,17 @@ def _punch(**parameters):
 
 
 def _from_text(u, obstacle, critical_points=()):
-    return FormulaSolution(
-        Formula(u, "truth.u"), Formula(obstacle, "truth.obstacle"), critical_points
-    )
+    obstacle = Formula(obstacle, "truth.obstacle")
+    return FormulaSolution(Formula(u, "truth.u"), obstacle, critical_points)
 
 
 _BUMP = "0.1*sin(3*x)"
 
 
 def _smooth(x0):
-    u = f"({_BUMP} + 8*pos(x - ({x0!r}))**3)*(1 - y**2) - y*(1 - y)*8*pos({x0!r} - x)**3"
-    return _from_text(u, _BUMP, ((x0, 0.0),))
+    lifted = f"({_BUMP} + 8*pos(x - ({x0!r}))**3)*(1 - y**2)"
+    pressed = f"y*(1 - y)*8*pos({x0!r} - x)**3"
+    return _from_text(f"{lifted} - {pressed}", _BUMP, ((x0, 0.0),))
 
 
 def _biactive(left, right):
@@ -169,16 +204,17 @@ def _biactive(left, right):
         raise SceneError(
             f"truth.parameters.left: {left:g} is not valid; it must be <= right = {right:g}"
         )
-    u = f"({_BUMP} + 20*pos(x - ({right!r}))**3)*(1 - y**2) - y*(1 - y)*20*pos({left!r} - x)**3"
+    lifted = f"({_BUMP} + 20*pos(x - ({right!r}))**3)*(1 - y**2)"
+    pressed = f"y*(1 - y)*20*pos({left!r} - x)**3"
     # No critical point is named: any point of the interval serves, and the mesh decides which one a
     # solution takes.
-    return _from_text(u, _BUMP)
+    return _from_text(f"{lifted} - {pressed}", _BUMP)
 
 
 def _uniform_load(c, alpha):
-    free = f"({c!r})*(1 - y**2)/2"
-    held = f"({c!r})*y*(1 - y)/2 + ({alpha!r})*(1 - y)"
-    return _from_text(free if alpha <= c / 2 else held, repr(alpha))
+    no_contact = f"({c!r})*(1 - y**2)/2"
+    full_contact = f"({c!r})*y*(1 - y)/2 + ({alpha!r})*(1 - y)"
+    return _from_text(no_contact if alpha <= c / 2 else full_contact, repr(alpha))
 
 
 def _patch(alpha):

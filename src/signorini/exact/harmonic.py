@@ -1,9 +1,8 @@
 """The two harmonic families, in closed form: Re z**(3/2), and the punch of half width a.
 
-As formulas both would lose their gradient at the critical points, and their load, which is zero, to
-round-off. The body lies above the line y = y0. A point below it, as round-off may leave one, counts
-as its mirror image seen from above; so does y = -0.0, which would put a branch cut on the wrong
-side.
+As formulas both would have no gradient at the critical points, and a load of round-off instead of
+zero. The body lies above the line y = y0. Round-off may leave a point below it, which then counts
+as its mirror image above. So does y = -0.0, which would be on the wrong side of a branch cut.
 """
 
 from dataclasses import dataclass
@@ -15,8 +14,11 @@ from signorini.formula import Formula
 from signorini.formula.values import hypot
 
 
-def square_root(x, y):
-    """Real and imaginary part, both >= 0, of the square root of x + iy for y >= 0; nothing cancels."""
+def _square_root(x, y):
+    """Real and imaginary part, both >= 0, of the root of x + iy for y >= 0, without cancellation.
+
+    The larger of the two is sqrt((r + |x|)/2), and twice their product is y.
+    """
     larger = np.sqrt(0.5 * (hypot(x, y) + np.abs(x)))
     with np.errstate(invalid="ignore"):
         smaller = np.where(larger > 0.0, 0.5 * y / larger, 0.0)
@@ -40,25 +42,75 @@ class Harmonic(ExactSolution):
         return self.critical_points
 
     def load(self, x, y):
+        """Zero at all points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+        """
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
 
     def value(self, x, y):
+        """u at points, by the family's closed form.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+        """
         return self._value(*self._factors(x, y))
 
     def gradient(self, x, y):
+        """Partial derivatives of u at points, by the family's closed form.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ux, uy : ndarray
+        """
         return self._gradient(*self._factors(x, y))
 
     def value_and_gradient(self, x, y):
-        found = self._factors(x, y)
-        return self._value(*found), *self._gradient(*found)
+        """u and its partial derivatives at points, from the same factors.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        u, ux, uy : ndarray
+        """
+        factors = self._factors(x, y)
+        return self._value(*factors), *self._gradient(*factors)
 
 
 @dataclass(frozen=True)
 class Corner(Harmonic):
-    """u = amplitude r**(3/2) cos(3 theta/2) about (x0, y0): the generic singularity of a critical
-    point.
+    """u = amplitude r**(3/2) cos(3 theta/2) about (x0, y0), as near a generic critical point.
 
     Contact for x <= x0, where du/dnu = 1.5 amplitude sqrt(r); no contact beyond.
+
+    Parameters
+    ----------
+    amplitude : float
+        Unit of u per length**(3/2).
+    x0, y0 : float
+        The critical point, unit of length.
     """
 
     amplitude: float
@@ -73,7 +125,7 @@ class Corner(Harmonic):
     def _factors(self, x, y):
         """Return (x, y, p, q), coordinates about the point and the square root p + iq of x + iy."""
         x, y = np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0))
-        return x, y, *square_root(x, y)
+        return x, y, *_square_root(x, y)
 
     def _value(self, x, y, p, q):
         return self.amplitude * (x * p - y * q) + 0.0
@@ -84,10 +136,17 @@ class Corner(Harmonic):
 
 @dataclass(frozen=True)
 class Punch(Harmonic):
-    """u = Re 1/2 (z s - a**2 log((z + s)/a)), z = x - x0 + i (y - y0), s = sqrt(z**2 - a**2) ~ z, a
-    the half width.
+    """u = Re (z s - a**2 log((z + s)/a))/2 with s = sqrt(z**2 - a**2), a the half width.
 
-    Contact for \\|x - x0\\| <= a, where du/dnu = sqrt(a**2 - (x - x0)**2); no contact beyond.
+    Here z = x - x0 + i (y - y0), and s is the branch with s ~ z far away. Contact for
+    -a <= x - x0 <= a, where du/dnu = sqrt(a**2 - (x - x0)**2); no contact beyond.
+
+    Parameters
+    ----------
+    half_width : float
+        Unit of length.
+    x0, y0 : float
+        Middle of the contact zone, unit of length.
 
     Notes
     -----
@@ -95,8 +154,13 @@ class Punch(Harmonic):
 
         u = a**2/2 (t cosh(xi) - xi - 2 t cosh(xi) sin(eta)**2),    du/dx - i du/dy = s.
 
-    As Kahan (1987) computes arcosh, t = Re conj(sqrt(z/a - 1)) sqrt(z/a + 1) is a sum of terms >=
-    0: exactly zero on the contact side, and free of cancellation near its ends.
+    As Kahan [1]_ computes arcosh, t = Re conj(sqrt(z/a - 1)) sqrt(z/a + 1) is a sum of terms >= 0:
+    exactly zero where there is contact, and free of cancellation near the ends.
+
+    References
+    ----------
+    .. [1] W. Kahan, Branch cuts for complex elementary functions, or: Much ado about nothing's sign
+       bit, in: The State of the Art in Numerical Analysis, Oxford University Press, 1987, 165-211.
     """
 
     half_width: float
@@ -119,6 +183,6 @@ class Punch(Harmonic):
         """Return (t, Re s/a, Im s/a) from the roots p + iq of z/a - 1 and P + iQ of z/a + 1."""
         a = self.half_width
         x, y = np.subtract(x, self.x0), np.abs(np.subtract(y, self.y0)) / a
-        p, q = square_root((x - a) / a, y)
-        P, Q = square_root((x + a) / a, y)
+        p, q = _square_root((x - a) / a, y)
+        P, Q = _square_root((x + a) / a, y)
         return p * P + q * Q, p * P - q * Q, p * Q + q * P

@@ -1,30 +1,28 @@
-"""Where an exact solution is looked at: triangles that cover the domain, and points close by each
-other on its sides.
+"""Where an exact solution is examined: triangles that cover the domain, and points on its sides.
 
-How many there are does not depend on the levels of a scene. The triangles are shaken, so that lines
-along which a formula changes do not run along their edges, and stay a little clear of the boundary,
-where a solution may be singular.
+How many there are does not depend on the levels of a scene. The triangles are perturbed, so that a
+line along which a formula changes does not run along their edges. They keep a small distance from
+the boundary, where a solution may be singular.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.exact.boundary_trace import find_side
 from signorini.fem.quadrature import triangle_rule
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula
+from signorini.mesh.boundary_trace import find_boundary_trace
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.grid import Grid
 from signorini.mesh.labels import NamedMesh
 from signorini.mesh.patterns import perturbed
 
-FEWEST, MOST = 2**11, 2**15  # triangles; a line across a square meets some 60 of the fewest
+FEWEST = 2**11  # triangles; a line across a square meets some 60 of them
+MOST = 2**15
 ON_SIDES = 2**12  # points on the facets of one label: four or more in any 1/1000 of them
-_SHAKEN, _CLEAR = (
-    0.7,
-    1e-3,
-)  # moves in units of `perturbed`, and the gap to neighbours in units of a triangle
+_PERTURBATION = 0.7  # in units of `perturbed`
+_GAP = 1e-3  # between neighbouring triangles, in units of a triangle
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,23 +55,47 @@ class Samples:
         ----------
         mesh : Grid or Triangulation
         boundary : dict, optional
-            The section ``boundary`` of a scene where it is by formula: then not facets have a label
-            but points.
+            The section ``boundary`` of a scene where it is by formula: then points have a label
+            rather than facets.
+
+        Returns
+        -------
+        Samples
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> samples = Samples.of(Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+        >>> samples.cells.shape
+        (2, 3, 2048)
         """
         while mesh.number_of_triangles < FEWEST:
             mesh = _finer(mesh)
         sides = {label: _on_side(mesh, label) for label in LABELS}
-        return cls(_cells(mesh), **(_labelled(sides.values(), boundary) if boundary else sides))
+        if boundary:
+            sides = _labelled(sides.values(), boundary)
+        return cls(_cells(mesh), **sides)
 
     @classmethod
     def of_domain(cls, domain, coarsest):
-        """Samples of a `Rectangle`, the same for all its levels and patterns, or of a `Refined`,
-        from its root.
+        """Samples of a domain, which do not depend on the levels of a scene.
+
+        Parameters
+        ----------
+        domain : Rectangle or Refined
+            Of a rectangle the samples are the same for all patterns.
+        coarsest : int
+            The coarsest level, from which domains other than rectangles are refined.
+
+        Returns
+        -------
+        Samples
         """
         boundary = domain.boundary if domain.boundary and by_formula(domain.boundary) else None
         if not isinstance(domain, Rectangle):
             return cls.of(domain.level(coarsest), boundary)
         origin, size = tuple(map(float, domain.origin)), tuple(map(float, domain.size))
+        # Where the boundary is by formula, points get labels of their own, and any will do here.
         labels = ("neumann",) * 4 if boundary else tuple(domain.boundary[side] for side in SIDES)
         return cls.of(Grid(*_counts(*size), origin, size, "falling", labels), boundary)
 
@@ -91,12 +113,14 @@ def _finer(mesh):
 
 
 def _cells(mesh):
-    """Corners of the shaken triangles, of every so many where there are too many."""
+    """Corners of the perturbed triangles, every second, third, ... one where there are too many."""
     ends = {label: mesh.facets[:, mesh.boundary_facets(label)] for label in LABELS}
     t = _counterclockwise(mesh)
-    p = perturbed(NamedMesh(mesh.p, t, ends), _SHAKEN, seed=0).p
-    corners = p[:, t[:, :: -(-t.shape[1] // MOST)]]
-    return corners + _CLEAR * (corners.mean(axis=1, keepdims=True) - corners)
+    p = perturbed(NamedMesh(mesh.p, t, ends), _PERTURBATION, seed=0).p
+    stride = -(-t.shape[1] // MOST)
+    corners = p[:, t[:, ::stride]]
+    centroids = corners.mean(axis=1, keepdims=True)
+    return corners + _GAP * (centroids - corners)
 
 
 def _counterclockwise(mesh):
@@ -106,31 +130,25 @@ def _counterclockwise(mesh):
 
 
 def _on_side(mesh, label):
-    """x, y, nx, ny of points in equal distances on the facets that carry a label; three on each at
-    least.
-    """
-    side = find_side(mesh, label)
-    counts = np.maximum(
-        3, np.ceil(ON_SIDES * side.length / max(side.length.sum(), np.finfo(float).tiny))
-    ).astype(int)
-    of = np.repeat(np.arange(counts.size), counts)
-    first = np.repeat(np.cumsum(counts) - counts, counts)
-    s = (np.arange(of.size) - first + 0.5) / counts[of]
-    start, end = side.ends[:, 0, of], side.ends[:, 1, of]
-    return (*(start + s * (end - start)), *side.normal[:, of])
+    """x, y, nx, ny of evenly spaced points on the facets with a label, three on each at least."""
+    trace = find_boundary_trace(mesh, label)
+    total = max(trace.length.sum(), np.finfo(float).tiny)  # zero where no facet has the label
+    counts = np.maximum(3, np.ceil(ON_SIDES * trace.length / total)).astype(int)
+    points, facets = trace.evenly_spaced(counts)
+    return (*points, *trace.normal[:, facets])
 
 
 def _labelled(sides, boundary):
     """The points of all sides together, sorted by the formula that is positive at them."""
-    x, y, nx, ny = np.concatenate(list(sides), axis=1)
-    formulas = {
-        label: Formula(text, f"boundary.{label}")
-        for label, text in boundary.items()
-        if text != "rest"
-    }
-    positive = {label: formula(x, y) > 0.0 for label, formula in formulas.items()}
-    rest = ~np.any([np.zeros(x.shape, dtype=bool), *positive.values()], axis=0)
-    found = {
-        label: positive.get(label, rest if label in boundary else ~rest & False) for label in LABELS
-    }
-    return {label: (x[at], y[at], nx[at], ny[at]) for label, at in found.items()}
+    points = np.concatenate(list(sides), axis=1)
+    x, y = points[:2]
+    nowhere = np.zeros(x.shape, dtype=bool)
+    carries = dict.fromkeys(LABELS, nowhere)
+    for label, text in boundary.items():
+        if text != "rest":
+            carries[label] = Formula(text, f"boundary.{label}")(x, y) > 0.0
+    rest = ~np.any(list(carries.values()), axis=0)
+    for label, text in boundary.items():
+        if text == "rest":
+            carries[label] = rest
+    return {label: tuple(points[:, at]) for label, at in carries.items()}

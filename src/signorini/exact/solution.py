@@ -7,11 +7,10 @@ from signorini.formula import Formula
 
 
 class ExactSolution(ABC):
-    """A function u that solves a Signorini problem, equation (2.2) of the paper, with the load
-    -Laplace u.
+    """A function u that solves a Signorini problem, equation (2.2) of the paper, with its own load.
 
-    Subclasses give `value`, `gradient` and `load`. All take coordinates in the user's unit of
-    length, broadcast against each other, and return new arrays of the broadcast shape.
+    Subclasses give `value`, `gradient` and `load`. All methods take coordinates in the user's unit
+    of length, broadcast against each other, and return new arrays of the broadcast shape.
 
     Attributes
     ----------
@@ -35,30 +34,84 @@ class ExactSolution(ABC):
 
     @abstractmethod
     def value(self, x, y):
-        """u at points."""
+        """u at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+        """
 
     @abstractmethod
     def gradient(self, x, y):
-        """Partial derivatives (du/dx, du/dy) at points, a pair, unit of u per length."""
+        """Partial derivatives of u at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ux, uy : ndarray
+            du/dx and du/dy, unit of u per length.
+        """
 
     def value_and_gradient(self, x, y):
-        """(u, du/dx, du/dy) at points; subclasses share work between them."""
+        """u and its partial derivatives at points; subclasses share work between them.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        u, ux, uy : ndarray
+        """
         return self.value(x, y), *self.gradient(x, y)
 
     @abstractmethod
     def load(self, x, y):
-        """-Laplace u at points, unit of u per length squared."""
+        """-div(k grad u) at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+            Unit of k u per length squared.
+        """
 
     def flux(self, x, y, nx, ny):
-        """du/dnu at points where the outward unit normal is (nx, ny), unit of u per length."""
+        """k du/dnu, the flux through a line, at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+        nx, ny : array_like of float
+            Unit normal of the line, outward on the boundary; dimensionless.
+
+        Returns
+        -------
+        ndarray
+            Unit of k u per length.
+        """
         ux, uy = self.gradient(x, y)
         return ux * nx + uy * ny + 0.0
 
 
 @dataclass(frozen=True)
 class FormulaSolution(ExactSolution):
-    """An exact solution from a formula; gradient and Laplacian are derived from it exactly, by
-    forward mode.
+    """An exact solution from a formula; its gradient and Laplacian are derived exactly.
 
     Parameters
     ----------
@@ -89,70 +142,57 @@ class FormulaSolution(ExactSolution):
         return None if self.u.variables else 0.0
 
     def value(self, x, y):
+        """The formula at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+        """
         return self.u(x, y)
 
     def gradient(self, x, y):
+        """Partial derivatives of the formula at points, by forward mode.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ux, uy : ndarray
+        """
         return tuple(self.u.expand(("d/dx", "d/dy"), x, y))
 
     def value_and_gradient(self, x, y):
+        """The formula and its partial derivatives at points, in one evaluation.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        u, ux, uy : ndarray
+        """
         return self.u.value_and_gradient(x, y)
 
     def load(self, x, y):
+        """Minus the Laplacian of the formula at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Unit of length.
+
+        Returns
+        -------
+        ndarray
+        """
         return 0.0 - self.u.laplacian(x, y)
-
-
-@dataclass(frozen=True)
-class Diffused(ExactSolution):
-    """An exact solution under a diffusion coefficient k: load -div(k grad u), flux k du/dnu.
-
-    The coefficient may jump across lines, and vary between them.
-
-    Parameters
-    ----------
-    u : ExactSolution
-        Its k du/dnu must not jump where k does; see `balance.check_balance`.
-    coefficient : Formula
-    """
-
-    u: ExactSolution
-    coefficient: Formula
-
-    @property
-    def obstacle(self):
-        """That of u."""
-        return self.u.obstacle
-
-    @property
-    def critical_points(self):
-        """Those of u."""
-        return self.u.critical_points
-
-    @property
-    def singular_points(self):
-        """Those of u."""
-        return self.u.singular_points
-
-    @property
-    def constant_load(self):
-        """Zero where u has no load, else None: not known."""
-        return 0.0 if self.u.constant_load == 0.0 else None
-
-    def value(self, x, y):
-        return self.u.value(x, y)
-
-    def gradient(self, x, y):
-        return self.u.gradient(x, y)
-
-    def value_and_gradient(self, x, y):
-        return self.u.value_and_gradient(x, y)
-
-    def load(self, x, y):
-        k, kx, ky = self.coefficient.value_and_gradient(x, y)
-        load = k * self.u.load(x, y)
-        if not (kx.any() or ky.any()):
-            return load
-        ux, uy = self.u.gradient(x, y)
-        return load - kx * ux - ky * uy
-
-    def flux(self, x, y, nx, ny):
-        return self.coefficient(x, y) * self.u.flux(x, y, nx, ny)

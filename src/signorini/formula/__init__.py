@@ -1,6 +1,4 @@
-"""Formulas in x and y typed by a user: read without trust, evaluated on arrays, differentiated
-exactly.
-"""
+"""Formulas in x and y given by the user: parsed without eval, evaluated, differentiated exactly."""
 
 import dataclasses
 
@@ -41,22 +39,22 @@ class Formula:
         `hypot(x, y)`, `min` and `max` of two or more, `pos(t)` = max(t, 0), `step(t)` = 1 if t >=
         0, else 0.
     Conditions
-        `< <= > >= == !=`, chains such as 0 < x < 1, `and`, `or`, `not`. They stand in the first
-        argument of `where(condition, a, b)`, nowhere else, and are no numbers. A NaN in the branch
-        not taken is harmless; where a condition hangs on a NaN, the result is NaN.
+        `< <= > >= == !=`, chains such as 0 < x < 1, `and`, `or`, `not`. They are not numbers, and
+        are allowed only as the first argument of `where(condition, a, b)`. A NaN in the branch not
+        taken is harmless. A condition that depends on a NaN makes the result NaN.
     Signed zeros
-        As in IEEE 754, up to the result: -2*x*y is -0.0 at (1, 0), and atan2(-2*x*y, -1) there -pi,
-        the limit from y > 0. Only of zeros of both signs `min` and `max` take either. A result of
-        zero has no sign.
+        As in IEEE 754 inside the formula: -2*x*y is -0.0 at (1, 0), and atan2(-2*x*y, -1) is -pi
+        there, the limit from y > 0. Given zeros of both signs, `min` and `max` may return either.
+        A final result of zero has no sign.
     Derivatives
         At a kink: of the branch taken in `where`; from the right (t >= 0) in `abs` and `pos`; of
         the first of equal arguments in `min` and `max`; zero for `sign`, `step`, `floor`, `ceil`.
-        Not finite at r = 0 for `r` and `theta`, nor the second one of pos(x)**1.5 for x < 0: write
-        where(x > 0, x**1.5, 0).
+        Those of `r` and `theta` are not finite at r = 0. Nor is the second one of pos(x)**1.5 for
+        x < 0: write where(x > 0, x**1.5, 0).
 
     Arithmetic is done as written, in double precision. Constant exponents 0, 1/2, 1, ..., 8, their
-    negatives, `r` and `hypot` use products, quotients and square roots only: the same bits on every
-    platform.
+    negatives, `r` and `hypot` use products, quotients and square roots only, so they give the same
+    bits on every platform.
 
     Examples
     --------
@@ -76,17 +74,23 @@ class Formula:
 
     @property
     def variables(self):
-        """Names among "x" and "y" that the text mentions, a frozenset; `r` and `theta` mention
-        both.
+        """The coordinates that the value depends on: a frozenset of "x" and "y".
+
+        `r` and `theta` depend on both.
         """
         return frozenset(step.name for step in self.program) & {"x", "y"}
 
     @property
     def constant(self):
-        """The value as a float if the text mentions no variable, else None; FormulaError if not
-        finite.
+        """The value as a float if the text mentions no variable, else None.
+
+        FormulaError if it is not finite.
         """
-        return None if self.variables else float(self(0.0, 0.0))
+        if self.variables:
+            return None
+        if len(self.program) == 1:  # a number as it stands, for which numpy need not be imported
+            return self.program[0].value
+        return float(self(0.0, 0.0))
 
     def __call__(self, x, y, *, check=True):
         """Evaluate at points.
@@ -112,11 +116,23 @@ class Formula:
         return self.expand(("value",), x, y, check)[0]
 
     def gradient(self):
-        """Exact partial derivatives along x and y, a pair called like the formula itself."""
+        """Exact partial derivatives along x and y, a pair of `Partial`."""
         return Partial(self, "x"), Partial(self, "y")
 
     def value_and_gradient(self, x, y, *, check=True):
-        """Evaluate (u, du/dx, du/dy) at points; shapes, `check` and errors as in a call.
+        """Evaluate the value and both partial derivatives, which share their work.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Coordinates (dimensionless), broadcast against each other.
+        check : bool
+            Whether a value or derivative that is not finite is an error.
+
+        Returns
+        -------
+        u, ux, uy : ndarray of float64
+            As from a call.
 
         Examples
         --------
@@ -126,45 +142,76 @@ class Formula:
         return tuple(self.expand(("value", "d/dx", "d/dy"), x, y, check))
 
     def laplacian(self, x, y, *, check=True):
-        """Evaluate d2u/dx2 + d2u/dy2 at points; shapes, `check` and errors as in a call."""
+        """Evaluate d2u/dx2 + d2u/dy2 at points.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Coordinates (dimensionless), broadcast against each other.
+        check : bool
+            Whether a value or derivative that is not finite is an error.
+
+        Returns
+        -------
+        ndarray of float64
+            As from a call.
+
+        Examples
+        --------
+        >>> float(Formula("x**2*y").laplacian(3.0, 2.0))
+        4.0
+        """
         return self.expand(("laplacian",), x, y, check)[0]
 
-    def expand(self, wanted, x, y, check=True):
-        """Evaluate several of `taylor.QUANTITIES` at once: a list of arrays; `check` and errors as
-        in a call.
+    def expand(self, quantities, x, y, check=True):
+        """Evaluate several quantities at once, which share their work.
+
+        Parameters
+        ----------
+        quantities : tuple of str
+            Of "value", "d/dx", "d2/dx2", "d/dy", "d2/dy2" and "laplacian".
+        x, y : array_like of float
+            Coordinates (dimensionless), broadcast against each other.
+        check : bool
+            Whether a quantity, or the value, that is not finite is an error.
+
+        Returns
+        -------
+        list of ndarray of float64
+            One for each quantity, as from a call.
         """
         # Importing numpy takes 0.1 s, and reading a formula needs none of it.
         from signorini.formula.taylor import expand
 
-        found, finite = expand(self.program, wanted, x, y)
+        results, finite = expand(self.program, quantities, x, y)
         if check and not finite:
-            self._name_non_finite(wanted, x, y)
-        return found
+            self._raise_if_not_finite(quantities, x, y)
+        return results
 
-    def _name_non_finite(self, wanted, x, y):
-        """FormulaError for the first value that is not finite, of the formula or what is derived
-        from it on the way.
-        """
-        from signorini.formula.taylor import expand, first_non_finite
-
-        def first_bad(name):
-            return first_non_finite(expand(self.program, (name,), x, y)[0][0], x, y)
-
-        if not any(map(first_bad, ("value", *wanted))):
-            return
-        for name in dict.fromkeys(
-            step for quantity in wanted for step in _ON_THE_WAY.get(quantity, (quantity,))
-        ):
-            bad = first_bad(name)
+    def _raise_if_not_finite(self, quantities, x, y):
+        """Raise for the first quantity that is not finite, or that is on the way to one."""
+        if not any(self._first_non_finite(name, x, y) for name in ("value", *quantities)):
+            return  # a bound overflowed, no value did
+        on_the_way = (step for name in quantities for step in _ON_THE_WAY.get(name, (name,)))
+        for name in dict.fromkeys(on_the_way):
+            bad = self._first_non_finite(name, x, y)
             if bad:
+                value, x_bad, y_bad = bad
                 raise FormulaError(
-                    f"{self.field}: {name} is {bad[0]!r} at (x, y) = ({bad[1]!r}, {bad[2]!r})"
+                    f"{self.field}: {name} is {value!r} at (x, y) = ({x_bad!r}, {y_bad!r})"
                     f" in {shorten(self.text)}; leave the point out with where(condition, a, b)"
                 )
 
+    def _first_non_finite(self, quantity, x, y):
+        """The first value of a quantity that is not finite, with its point; None where all are."""
+        from signorini.formula.taylor import expand, first_non_finite
 
-# What is looked at, in this order, where a quantity is not finite: the first that is not is the one
-# to name.
+        (values,), _ = expand(self.program, (quantity,), x, y)
+        return first_non_finite(values, x, y)
+
+
+# Where a quantity is not finite, these are examined in this order, and the first that is not finite
+# either is named.
 _ON_THE_WAY = {
     "d/dx": ("value", "d/dx"),
     "d/dy": ("value", "d/dy"),
@@ -174,13 +221,20 @@ _ON_THE_WAY = {
 
 @dataclasses.dataclass(frozen=True)
 class Partial:
-    """Partial derivative of a formula along one axis, called like the formula itself."""
+    """Partial derivative of a formula along one axis, called like the formula itself.
+
+    Parameters
+    ----------
+    formula : Formula
+    axis : {"x", "y"}
+    """
 
     formula: Formula
     axis: str
 
     def __call__(self, x, y, *, check=True):
-        """Evaluate at points; shapes, `check` and errors as for a formula, whose value is checked
-        too.
+        """Evaluate at points; shapes, `check` and errors as in a call of the formula.
+
+        The formula's value is checked too.
         """
         return self.formula.expand((f"d/d{self.axis}",), x, y, check)[0]

@@ -1,4 +1,4 @@
-"""The words of a formula: its text cut into tokens, and what to say of text that has other words.
+"""The lexer of formulas: text cut into tokens, and error messages for text that has no token.
 
 Neither this module nor `grammar` imports numpy: formulas are already read while a Snakefile is
 parsed.
@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 from signorini.exceptions import FormulaError
 
-MAX_CHARACTERS = 1000
+_MAX_CHARACTERS = 1000
 
 VARIABLES = ("x", "y", "r", "theta")
 CONSTANTS = {"pi": math.pi, "e": math.e}
-# Least and greatest number of arguments.
+# Function -> its least and greatest number of arguments.
 FUNCTIONS = {
     **dict.fromkeys(("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan"), (1, 1)),
     **dict.fromkeys(
@@ -28,7 +28,7 @@ FUNCTIONS = {
 }
 KNOWN = (*VARIABLES, *CONSTANTS, *sorted(FUNCTIONS))
 
-TOKEN = re.compile(
+_TOKEN = re.compile(
     r"(?P<space>[ \t]+)"
     r"|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?P<suffix>\w*)"
     r"|(?P<symbol>\*\*|<=|>=|==|!=|[-+*<>(),]|/(?!/)|(?:and|or|not)\b)"
@@ -42,7 +42,7 @@ _POWER = "write x**2 for a power"
 _TIMES = "write * between factors, as in 2*x"
 _WHERE = "write where(condition, a, b)"
 _PLAIN = "write functions without a module, as in sin(x)"
-REMEDIES = {
+_REMEDIES = {
     **dict.fromkeys(("^", "²", "pow", "power"), _POWER),
     **dict.fromkeys(("×", "·"), _TIMES),
     **dict.fromkeys(("if", "else", "True", "False"), _WHERE),
@@ -77,12 +77,49 @@ class Token(NamedTuple):
 
 
 def shorten(text, width=60):
-    """Quote text on one ASCII line, its first `width` characters or so."""
+    """Quote text on one ASCII line, cut if it is long.
+
+    Parameters
+    ----------
+    text : str
+    width : int
+        Characters of the text that are shown; an escaped one takes more room than one.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> shorten("x + y + r", 6)
+    "'x +...'"
+    """
     return ascii(text if len(text) <= width else text[: width - 3] + "...")
 
 
 def as_text(value, field):
-    """Text of a formula that is given as text or as a number; FormulaError for anything else."""
+    """The text of a formula that is given as text or as a number.
+
+    Parameters
+    ----------
+    value : str, int or float
+    field : str
+        Name of the quantity, for error messages.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    FormulaError
+        If the value is of another type, or a number that no double holds.
+
+    Examples
+    --------
+    >>> as_text(0.5, "data.f")
+    '0.5'
+    """
     if isinstance(value, str):
         return value
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -99,69 +136,118 @@ def as_text(value, field):
 
 
 class Source:
-    """Text of one formula, as tokens, with the errors that point into it."""
+    """Text of one formula, as tokens, with the errors that point into it.
+
+    Parameters
+    ----------
+    text : str
+    field : str
+        Name of the quantity, for error messages.
+    """
 
     def __init__(self, text, field):
-        self.text, self.field = text, field
+        self.text = text
+        self.field = field
 
     def error(self, problem, column, remedy):
-        """One-line error that names the field, the place and the remedy."""
+        """One-line error that names the field, the place and the remedy.
+
+        Parameters
+        ----------
+        problem : str
+        column : int
+            Where it is, counted from 1.
+        remedy : str
+
+        Returns
+        -------
+        FormulaError
+        """
         return FormulaError(
             f"{self.field}: {problem} at column {column} of {shorten(self.text)}; {remedy}"
         )
 
     def tokens(self):
-        """All tokens and an "end"; the name of a function takes its opening parenthesis along."""
-        if len(self.text) > MAX_CHARACTERS:
-            problem = f"more than {MAX_CHARACTERS} characters"
-            raise self.error(problem, MAX_CHARACTERS + 1, "shorten the formula")
-        found = []
-        for match in TOKEN.finditer(self.text):
+        """All tokens and an "end"; the name of a function takes its opening parenthesis along.
+
+        Returns
+        -------
+        list of Token
+
+        Raises
+        ------
+        FormulaError
+            If the text is too long, or has a character or number that no formula has.
+        """
+        if len(self.text) > _MAX_CHARACTERS:
+            problem = f"more than {_MAX_CHARACTERS} characters"
+            raise self.error(problem, _MAX_CHARACTERS + 1, "shorten the formula")
+        tokens = []
+        for match in _TOKEN.finditer(self.text):
+            # A number is followed by its suffix, the group that matched last.
             kind = "number" if match["number"] else match.lastgroup
             token = Token(kind, match[kind], match.start() + 1)
             if kind == "stray":
-                raise self.stray(token)
+                raise self._stray_character_error(token)
             if kind == "number":
-                self.check_number(token, match["suffix"])
+                self._check_number(token, match["suffix"])
             if kind != "space":
-                found.append(token)
-        return [*found, Token("end", "nothing", len(self.text) + 1)]
+                tokens.append(token)
+        return [*tokens, Token("end", "nothing", len(self.text) + 1)]
 
-    def check_number(self, token, suffix):
+    def _check_number(self, token, suffix):
         """Refuse what is no decimal number, and what a double cannot hold."""
-        _, digits, column = token
-        shown, value = shorten(digits + suffix, 30), float(digits)
+        digits, column = token.text, token.column
+        shown = shorten(digits + suffix, 30)
         if suffix in ("j", "J"):
             raise self.error(f"complex number {shown}", column, "a formula is real")
         if suffix:
-            raise self.error(
-                f"{shown} is no number", column, f"{_TIMES}, and numbers as 0.5 or 1e-3"
-            )
+            remedy = f"{_TIMES}, and numbers as 0.5 or 1e-3"
+            raise self.error(f"{shown} is no number", column, remedy)
         if re.match(r"0\d", digits):
             raise self.error(f"leading zero in {shown}", column, "write the number without it")
-        if value == math.inf or (value == 0 and re.match(r"[0.]*[1-9]", digits)):
-            raise self.error(
-                f"number {shown} out of range", column, "a double holds 5e-324 to 1.8e308"
-            )
+        value = float(digits)
+        underflows = value == 0 and re.match(r"[0.]*[1-9]", digits)
+        if value == math.inf or underflows:
+            remedy = "a double holds 5e-324 to 1.8e308"
+            raise self.error(f"number {shown} out of range", column, remedy)
 
-    def stray(self, token):
-        """Error for a character that no formula has."""
+    def _stray_character_error(self, token):
+        """The error for a character that no formula has."""
         shown = ascii(token.text)
         if not token.text.isascii():
-            shown = f"non-ASCII U+{ord(token.text):04X} {unicodedata.name(token.text, '')}".strip()
-        remedy = REMEDIES.get(
-            token.text, "use names, numbers and + - * / ** ( ) , < <= > >= == != only"
-        )
+            name = unicodedata.name(token.text, "")
+            shown = f"non-ASCII U+{ord(token.text):04X} {name}".strip()
+        plain = "use names, numbers and + - * / ** ( ) , < <= > >= == != only"
+        remedy = _REMEDIES.get(token.text, plain)
         return self.error(f"unexpected {shown}", token.column, remedy)
 
-    def unknown(self, token):
-        """Error for an unknown name, with the nearest known one."""
+    def unknown_name_error(self, token):
+        """The error for an unknown name, with the nearest known one.
+
+        Parameters
+        ----------
+        token : Token
+
+        Returns
+        -------
+        FormulaError
+        """
         name = token.text
-        near = difflib.get_close_matches(name, KNOWN, 1) or difflib.get_close_matches(
-            name.lower(), KNOWN, 1
-        )
-        remedy = f"did you mean {near[0]}?" if near else "mind the spelling"
-        if set(name) <= set("xyr"):
-            remedy = f"write {'*'.join(name[:20])}"
-        remedy = f"{REMEDIES.get(name, remedy)} (known: {', '.join(KNOWN)})"
+        remedy = _REMEDIES.get(name) or _product(name) or _nearest_name(name)
+        remedy = f"{remedy} (known: {', '.join(KNOWN)})"
         return self.error(f"unknown name {shorten(name, 30)}", token.column, remedy)
+
+
+def _product(name):
+    """Remedy for a name such as xy, which is meant as a product; None for others."""
+    return f"write {'*'.join(name[:20])}" if set(name) <= set("xyr") else None
+
+
+def _nearest_name(name):
+    """Remedy that names the nearest known name, if there is one."""
+    for spelling in (name, name.lower()):
+        near = difflib.get_close_matches(spelling, KNOWN, 1)
+        if near:
+            return f"did you mean {near[0]}?"
+    return "mind the spelling"

@@ -1,5 +1,6 @@
-"""Derivatives of a program as expressions, by forward mode: each value travels with its first two
-along one axis.
+"""Derivatives of a program as expressions, by automatic differentiation in forward mode.
+
+Each value travels with its first two derivatives along one axis, a `Jet`.
 """
 
 from functools import lru_cache, partial, reduce
@@ -7,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.formula.expressions import Expression, Graph, compile_code, evaluate
+from signorini.formula.evaluation import compile_code, evaluate
+from signorini.formula.expressions import Expression, Graph
 
 
 class Jet(NamedTuple):
@@ -23,71 +25,82 @@ class Jet(NamedTuple):
         return self.du is self.ddu is self.u.graph.zero
 
 
-def _step(name):
-    """A step of a program as a function of expressions."""
+def _elementary(name):
+    """A function of `values.VALUES` as a function of expressions."""
     return lambda u, *terms: u.graph.apply(name, u, *terms)
 
 
-sqrt, exp, sin, cos, tan, sinh, cosh, tanh = map(
-    _step, ("sqrt", "exp", "sin", "cos", "tan", "sinh", "cosh", "tanh")
-)
-hypot, atan2, where, step = map(_step, ("hypot", "atan2", "where", "step"))
+_sqrt = _elementary("sqrt")
+_exp = _elementary("exp")
+_sin = _elementary("sin")
+_cos = _elementary("cos")
+_tan = _elementary("tan")
+_sinh = _elementary("sinh")
+_cosh = _elementary("cosh")
+_tanh = _elementary("tanh")
+_step = _elementary("step")
+_hypot = _elementary("hypot")
+_atan2 = _elementary("atan2")
+_where = _elementary("where")
 
 
-def compare(sign, a, b):
+def _compare(sign, a, b):
     """The condition that a comparison is."""
     return a.graph.apply("compare", a, b, value=(sign,))
 
 
 # g -> (g', g''), None where it is zero throughout; at the kink of abs and pos those from the right.
-SLOPES = {
+_SLOPES = {
     "negative": lambda u: (-1.0, None),
-    "sqrt": lambda u: (0.5 / sqrt(u), -0.25 / (u * sqrt(u))),
-    "exp": lambda u: (exp(u), exp(u)),
+    "sqrt": lambda u: (0.5 / _sqrt(u), -0.25 / (u * _sqrt(u))),
+    "exp": lambda u: (_exp(u), _exp(u)),
     "log": lambda u: (1 / u, -1 / (u * u)),
-    "sin": lambda u: (cos(u), -sin(u)),
-    "cos": lambda u: (-sin(u), -cos(u)),
-    "tan": lambda u: (1 / cos(u) ** 2, 2 * tan(u) / cos(u) ** 2),
-    "asin": lambda u: (1 / sqrt((1 - u) * (1 + u)), u / ((1 - u) * (1 + u)) ** 1.5),
-    "acos": lambda u: (-1 / sqrt((1 - u) * (1 + u)), -u / ((1 - u) * (1 + u)) ** 1.5),
+    "sin": lambda u: (_cos(u), -_sin(u)),
+    "cos": lambda u: (-_sin(u), -_cos(u)),
+    "tan": lambda u: (1 / _cos(u) ** 2, 2 * _tan(u) / _cos(u) ** 2),
+    "asin": lambda u: (1 / _sqrt((1 - u) * (1 + u)), u / ((1 - u) * (1 + u)) ** 1.5),
+    "acos": lambda u: (-1 / _sqrt((1 - u) * (1 + u)), -u / ((1 - u) * (1 + u)) ** 1.5),
     "atan": lambda u: (1 / (1 + u * u), -2 * u / (1 + u * u) ** 2),
-    "sinh": lambda u: (cosh(u), sinh(u)),
-    "cosh": lambda u: (sinh(u), cosh(u)),
-    "tanh": lambda u: (1 / cosh(u) ** 2, -2 * tanh(u) / cosh(u) ** 2),
-    "abs": lambda u: (2 * step(u) - 1, None),
-    "pos": lambda u: (step(u), None),
+    "sinh": lambda u: (_cosh(u), _sinh(u)),
+    "cosh": lambda u: (_sinh(u), _cosh(u)),
+    "tanh": lambda u: (1 / _cosh(u) ** 2, -2 * _tanh(u) / _cosh(u) ** 2),
+    "abs": lambda u: (2 * _step(u) - 1, None),
+    "pos": lambda u: (_step(u), None),
 }
 
 
-def chain(value, slope, bend, t):
-    """Chain rule from g' and g''; multiplied left to right, lest du*du overflow beside a small
-    bend.
+def _chain(value, slope, bend, t):
+    """Chain rule from g' and g''.
+
+    Multiplied left to right, lest du*du overflow beside a small g''.
     """
     zero = value.graph.zero
-    slope, bend = (zero if factor is None else factor for factor in (slope, bend))
+    slope = zero if slope is None else slope
+    bend = zero if bend is None else bend
     return Jet(value, slope * t.du, bend * t.du * t.du + slope * t.ddu)
 
 
-def multiply(s, t):
-    """Leibniz's rule."""
+def _multiply(s, t):
+    """Product rule."""
     return Jet(s.u * t.u, s.u * t.du + s.du * t.u, s.u * t.ddu + 2 * s.du * t.du + s.ddu * t.u)
 
 
-def divide(s, t):
+def _divide(s, t):
     """Quotient rule: q*t = s differentiated."""
     q = s.u / t.u
     dq = (s.du - q * t.du) / t.u
     return Jet(q, dq, (s.ddu - 2 * dq * t.du - q * t.ddu) / t.u)
 
 
-def raise_to(s, t):
+def _raise_to(s, t):
     """Power rule; where its coefficient p or p*(p - 1) vanishes, so does the term, at s = 0 too."""
-    w, p = s.u**t.u, t.u
+    w = s.u**t.u
+    p = t.u
     if t.flat:
         slope = _unless((0.0,), p, lambda: p * s.u ** (p - 1))
         bend = _unless((0.0, 1.0), p, lambda: p * (p - 1) * s.u ** (p - 2))
-        return chain(w, slope, bend, s)
-    exponent = multiply(t, apply("log", s))
+        return _chain(w, slope, bend, s)
+    exponent = _multiply(t, _apply("log", s))
     return Jet(w, w * exponent.du, w * (exponent.du**2 + exponent.ddu))
 
 
@@ -95,29 +108,33 @@ def _unless(exceptions, p, make):
     """An expression, or zero where the exponent is one of the exceptions."""
     if p.name == "number":
         return None if p.value in exceptions else make()
-    return reduce(
-        lambda found, exception: where(compare("==", p, exception), 0.0, found), exceptions, make()
-    )
+    result = make()
+    for exception in exceptions:
+        result = _where(_compare("==", p, exception), 0.0, result)
+    return result
 
 
-def polar(a, b):
-    """Radius and angle of the point (b, a)."""
-    rho = hypot(a.u, b.u)
-    c, s = b.u / rho, a.u / rho
-    drho, dphi = c * b.du + s * a.du, (c * a.du - s * b.du) / rho
+def _polar(a, b):
+    """Jets of the radius and the angle of the point (b, a)."""
+    rho = _hypot(a.u, b.u)
+    # The unit vectors (c, s) along the radius and (-s, c) along the angle.
+    c = b.u / rho
+    s = a.u / rho
+    drho = c * b.du + s * a.du
+    dphi = (c * a.du - s * b.du) / rho
     radius = Jet(rho, drho, c * b.ddu + s * a.ddu + rho * dphi * dphi)
-    angle = Jet(atan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
+    angle = Jet(_atan2(a.u, b.u), dphi, (c * a.ddu - s * b.ddu) / rho - 2 * dphi * drho / rho)
     return radius, angle
 
 
-def choose(condition, s, t):
-    """Derivatives of the branch taken."""
-    return Jet(*(where(condition.u, a, b) for a, b in zip(s, t, strict=True)))
+def _choose(condition, s, t):
+    """Jet of the branch taken."""
+    return Jet(*(_where(condition.u, a, b) for a, b in zip(s, t, strict=True)))
 
 
-def extreme(sign, *terms):
-    """Derivatives of the least or greatest term, of the first one at a tie."""
-    return reduce(lambda s, t: choose(_flat(compare(sign, s.u, t.u)), s, t), terms)
+def _extreme(sign, *terms):
+    """Jet of the least or greatest term, of the first one at a tie."""
+    return reduce(lambda s, t: _choose(_flat(_compare(sign, s.u, t.u)), s, t), terms)
 
 
 def _flat(expression):
@@ -125,48 +142,63 @@ def _flat(expression):
     return Jet(expression, zero, zero)
 
 
-RULES = {
+_RULES = {
     "+": lambda s, t: Jet(s.u + t.u, s.du + t.du, s.ddu + t.ddu),
     "-": lambda s, t: Jet(s.u - t.u, s.du - t.du, s.ddu - t.ddu),
-    "*": multiply,
-    "/": divide,
-    "**": raise_to,
+    "*": _multiply,
+    "/": _divide,
+    "**": _raise_to,
     "positive": lambda t: t,
-    "hypot": lambda a, b: polar(a, b)[0],
-    "atan2": lambda a, b: polar(a, b)[1],
-    "min": partial(extreme, "<="),
-    "max": partial(extreme, ">="),
-    "where": choose,
+    "hypot": lambda a, b: _polar(a, b)[0],
+    "atan2": lambda a, b: _polar(a, b)[1],
+    "min": partial(_extreme, "<="),
+    "max": partial(_extreme, ">="),
+    "where": _choose,
 }
 
 
-def apply(name, *jets, signs=None):
-    """Result of one step; those without a rule or slope (sign, step, floor, ceil, conditions) are
-    flat.
-    """
+def _apply(name, *jets, signs=None):
+    """Jet of one step; steps with neither rule nor slope (sign, floor, conditions) are flat."""
     varies = not all(jet.flat for jet in jets)
-    if varies and name in RULES:
-        return RULES[name](*jets)
+    if varies and name in _RULES:
+        return _RULES[name](*jets)
     value = jets[0].u.graph.apply(name, *(jet.u for jet in jets), value=signs)
-    if varies and name in SLOPES:
-        return chain(value, *SLOPES[name](jets[0].u), *jets)
+    if varies and name in _SLOPES:
+        slope, bend = _SLOPES[name](jets[0].u)
+        return _chain(value, slope, bend, *jets)
     return _flat(value)
 
 
 def differentiate(graph, program, axis):
-    """The jet of a program along "x" or "y"; along neither, "", all derivatives are zero."""
-    leaves = {name: _flat(graph.variable(name)) for name in "xy"}
+    """The jet of a program along an axis.
+
+    Parameters
+    ----------
+    graph : Graph
+        Where the expressions are made.
+    program : tuple of Step
+    axis : {"x", "y", ""}
+        Along neither axis, "", all derivatives are zero.
+
+    Returns
+    -------
+    Jet
+    """
+    variables = {name: _flat(graph.variable(name)) for name in "xy"}
     if axis:
-        leaves[axis] = leaves[axis]._replace(du=graph.number(1.0))
+        variables[axis] = variables[axis]._replace(du=graph.number(1.0))
     stack = []
     for name, arity, value in program:
         if arity:
-            stack[-arity:] = [apply(name, *stack[-arity:], signs=value)]
+            stack[-arity:] = [_apply(name, *stack[-arity:], signs=value)]
+        elif name in variables:
+            stack.append(variables[name])
         else:
-            stack.append(leaves[name] if name in leaves else _flat(graph.number(value)))
+            stack.append(_flat(graph.number(value)))
     return stack[0]
 
 
+# Each from a function that gives the jet along an axis.
 QUANTITIES = {
     "value": lambda along: along("").u,
     "d/dx": lambda along: along("x").du,
@@ -182,9 +214,9 @@ def _code(program, wanted):
     """Code for some of `QUANTITIES`, and for a bound on each and on the value."""
     graph = Graph()
     along = lru_cache(lambda axis: differentiate(graph, program, axis))
-    found = {name: QUANTITIES[name](along) for name in (*wanted, "value")}
-    bounds = [graph.bound(expression) for expression in found.values()]
-    return compile_code(graph, (*(found[name] for name in wanted), *bounds))
+    expressions = {name: QUANTITIES[name](along) for name in (*wanted, "value")}
+    bounds = [graph.bound(expression) for expression in expressions.values()]
+    return compile_code(graph, (*(expressions[name] for name in wanted), *bounds))
 
 
 def expand(program, wanted, x, y):
@@ -200,24 +232,42 @@ def expand(program, wanted, x, y):
 
     Returns
     -------
-    found : list of ndarray
-        New arrays, one for each that is wanted, each of the broadcast shape.
+    results : list of ndarray
+        New arrays, one for each quantity that is wanted, each of the broadcast shape.
     finite : bool
-        Whether these and the value of the program are known to be finite at all points.
+        Whether these and the value of the program are known to be finite at all points. False
+        where a bound on one overflows, though all of them may be finite.
     """
     # A point does not depend on the sign of a zero among its coordinates: adding 0.0 clears it.
     x, y = (np.asarray(part, dtype=np.float64) + 0.0 for part in (x, y))
     shape = np.broadcast_shapes(x.shape, y.shape)
     # One dimension at least, so that an exponent that varies never passes for a constant one.
-    found = evaluate(_code(program, wanted), np.atleast_1d(x), np.atleast_1d(y))
-    count = len(wanted)
-    # Adding 0.0 clears the sign of zero.
-    parts = [(np.broadcast_to(part, shape or (1,)) + 0.0).reshape(shape) for part in found[:count]]
-    return parts, bool(np.isfinite(found[count:]).all())
+    computed = evaluate(_code(program, wanted), np.atleast_1d(x), np.atleast_1d(y))
+    parts, bounds = computed[: len(wanted)], computed[len(wanted) :]
+    # Adding 0.0 makes a new array and clears the sign of zero.
+    results = [(np.broadcast_to(part, shape or (1,)) + 0.0).reshape(shape) for part in parts]
+    return results, bool(np.isfinite(bounds).all())
 
 
 def first_non_finite(values, x, y):
-    """The first value that is NaN or infinite with its x and y, as floats, or None."""
+    """The first value that is NaN or infinite, with its point.
+
+    Parameters
+    ----------
+    values : ndarray
+    x, y : array_like of float
+        Coordinates, which broadcast to the shape of the values.
+
+    Returns
+    -------
+    tuple of float or None
+        The value, its x and its y; None where all values are finite.
+
+    Examples
+    --------
+    >>> first_non_finite(np.array([1.0, np.inf]), np.array([2.0, 3.0]), 4.0)
+    (inf, 3.0, 4.0)
+    """
     finite = np.isfinite(values)
     if finite.all():
         return None

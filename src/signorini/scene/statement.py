@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from signorini.exceptions import SceneError
 from signorini.fem.data import BySubdomain, Data, read_coefficient
 from signorini.formula import Formula
 from signorini.mesh.boundary import by_formula
@@ -96,16 +95,9 @@ class ProblemStatement:
             typed["coefficient"] = read_coefficient(mapping["data"]["coefficient"])
         exact = None
         if "truth" in mapping:
-            from signorini.exact import Diffused, derived_data, read_exact
+            from signorini.exact import derived_data, read_exact
 
-            exact = read_exact(mapping["truth"])
-            coefficient = typed.get("coefficient", Formula("1"))
-            if not isinstance(coefficient, Formula):
-                raise SceneError(
-                    "data.coefficient: an exact truth needs a formula in x and y, not a section"
-                )
-            if coefficient.text != "1":
-                exact = Diffused(exact, coefficient)
+            exact = read_exact(mapping["truth"], typed.get("coefficient"))
             data = replace(derived_data(exact), **typed)
         else:
             zero = {name: Formula("0", f"data.{name}") for name in ("g", "dirichlet", "obstacle")}

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signorini.exceptions import MeshError
-from signorini.mesh.check import check_triangulation, unique_facets
+from signorini.mesh.check import check_triangulation
+from signorini.mesh.facets import unique_facets
 from signorini.mesh.grid import Grid
 from signorini.mesh.outline import MAX_LOOPS
 from signorini.mesh.patterns import alternating, criss_cross

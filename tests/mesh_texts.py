@@ -88,9 +88,11 @@ $EndElements
 
 
 VTU = """<?xml version="1.0"?>{doctype}
-<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" {options}><UnstructuredGrid>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" {options}>
+<UnstructuredGrid>
 <Piece NumberOfPoints="3" NumberOfCells="1"><Points>
-<DataArray type="Float64" NumberOfComponents="3" format="{format}" offset="0">{points}</DataArray></Points>
+<DataArray type="Float64" NumberOfComponents="3" format="{format}" offset="0">{points}</DataArray>
+</Points>
 <Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
 <DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
 <DataArray type="Int64" Name="types" format="ascii">5</DataArray></Cells></Piece></UnstructuredGrid>

@@ -1,6 +1,4 @@
-"""Labels of the boundary: by part and by formula, every facet exactly one, in scikit-fem's numbers."""
-
-import doctest
+"""Labels of the boundary, by part and by formula: every facet exactly one."""
 
 import numpy as np
 import pytest
@@ -9,7 +7,6 @@ from hypothesis import strategies as st
 
 from signorini.exceptions import FormulaError, MeshError
 from signorini.formula import Formula
-from signorini.mesh import labels
 from signorini.mesh.boundary import LABELS
 from signorini.mesh.labels import NamedMesh, label_boundary, labelled, with_sides
 from signorini.mesh.patterns import alternating, criss_cross
@@ -24,10 +21,6 @@ def formula(text):
 
 def midpoints(mesh, facets):
     return 0.5 * mesh.p[:, mesh.facets[:, facets]].sum(axis=1)
-
-
-def test_examples():
-    assert doctest.testmod(labels).failed == 0
 
 
 def test_facets_have_scikit_fem_numbers_and_labels_survive_refinement():

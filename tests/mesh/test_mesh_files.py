@@ -32,7 +32,10 @@ from signorini.exceptions import MeshError
 from signorini.mesh.parse import parse
 
 opened, file = [], h5py.File
-sys.addaudithook(lambda event, arguments: opened.append(str(arguments[0])) if event == "open" else None)
+def note(event, arguments):
+    if event == "open":
+        opened.append(str(arguments[0]))
+sys.addaudithook(note)
 h5py.File = lambda name, *arguments: (opened.append(str(name)), file(name, *arguments))[1]
 found = {}
 for path in sys.argv[1:]:

@@ -2,7 +2,6 @@
 them.
 """
 
-import doctest
 import struct
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from mesh_texts import GMSH_NODES
 from signorini.exceptions import MeshError
 from signorini.fem.coefficient import coefficient_on
 from signorini.fem.data import BySubdomain
-from signorini.mesh import boundary, imported
+from signorini.mesh import imported
 from signorini.mesh.domain import make_domain
 from signorini.mesh.gmsh import read_msh, sections
 from signorini.mesh.imported import import_mesh, read_mesh
@@ -158,7 +157,7 @@ VARIANTS = {
 @pytest.fixture(autouse=True)
 def here(monkeypatch):
     """Files are parsed in this process: less safe, but faster."""
-    monkeypatch.setattr(imported, "run_apart", lambda _, path, **limits: parse(path))
+    monkeypatch.setattr(imported, "run_in_sandbox", lambda _, path, **limits: parse(path))
 
 
 def counts(parts):
@@ -206,8 +205,9 @@ def test_overlapping_groups_hold_all_their_lines(version):
         assert np.array_equal(
             mesh.parts[part], mesh.parts[{"1": "bottom", "2": "both", "3": "sides"}[part]]
         )
-    message = "4 boundary facets of .* have more than one label: .*they overlap: at the first, part '1' is contact and "
-    with pytest.raises(MeshError, match=message + "part '2' is dirichlet"):
+    count = "4 boundary facets of .* have more than one label: .*"
+    overlap = "they overlap: at the first, part '1' is contact and part '2' is dirichlet"
+    with pytest.raises(MeshError, match=count + overlap):
         read_mesh(path, {"1": "contact", "2": "dirichlet", "3": "neumann"})
     sound = read_mesh(path, {"2": "contact", "3": "dirichlet"})
     assert sound.boundary_facets("contact").size == 8
@@ -215,8 +215,13 @@ def test_overlapping_groups_hold_all_their_lines(version):
 
 SQUARE = [
     # tags: the group and the entity; corners
-    ((1, 1), (1, 2)), ((1, 2), (2, 3)), ((1, 3), (3, 4)), ((1, 4), (4, 1)), ((4, 1), (1, 2, 3)), ((4, 2), (1, 3, 4)),
-]  # fmt: skip
+    ((1, 1), (1, 2)),
+    ((1, 2), (2, 3)),
+    ((1, 3), (3, 4)),
+    ((1, 4), (4, 1)),
+    ((4, 1), (1, 2, 3)),
+    ((4, 2), (1, 3, 4)),
+]
 
 
 def msh22(rows, names=""):
@@ -227,7 +232,8 @@ def msh22(rows, names=""):
         for k, (tags, corners) in enumerate(rows)
     ]
     body = "\n".join(" ".join(map(str, line)) for line in lines)
-    return f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{names}{nodes}$Elements\n{len(rows)}\n{body}\n$EndElements\n"
+    header = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+    return f"{header}{names}{nodes}$Elements\n{len(rows)}\n{body}\n$EndElements\n"
 
 
 # The second triangle is in group 5 as well, for which MSH 2.2 writes it twice.
@@ -324,10 +330,6 @@ def test_version_4_0_gets_a_remedy(write):
 
 
 # Groups that are named as labels are
-
-
-def test_examples():
-    assert doctest.testmod(boundary).failed == 0
 
 
 LABELS = {"contact": "contact", "dirichlet": "dirichlet", "neumann": "neumann"}

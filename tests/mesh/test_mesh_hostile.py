@@ -22,7 +22,7 @@ from signorini.mesh import inflate
 from signorini.mesh.imported import import_mesh
 from signorini.mesh.parse import parse
 from signorini.mesh.patterns import alternating
-from signorini.mesh.sandbox import run_apart
+from signorini.mesh.sandbox import run_in_sandbox
 
 meshio = pytest.importorskip("meshio")
 
@@ -59,8 +59,9 @@ def huge(text, pattern):
 
 
 XDMF = (
-    '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY"><DataItem Dimensions="3 2" Format="{}">{}</DataItem>'
-    + ("</Geometry></Grid></Domain></Xdmf>")
+    '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY">'
+    '<DataItem Dimensions="3 2" Format="{}">{}</DataItem>'
+    "</Geometry></Grid></Domain></Xdmf>"
 )
 
 HOSTILE = {
@@ -301,7 +302,13 @@ def test_an_endless_loop_of_the_reader_is_cut_off(write):
     path = write(text.encode().replace(b"@", data + b"\n"), "loop.vtu")
     start = time.perf_counter()
     with pytest.raises(MeshError, match=r"loop\.vtu: not done after 1 s"):
-        run_apart("signorini.mesh.parse:parse", str(path), memory=2**31, seconds=1, what=path.name)
+        run_in_sandbox(
+            "signorini.mesh.parse:parse",
+            str(path),
+            memory_limit=2**31,
+            timeout=1,
+            task=path.name,
+        )
     assert time.perf_counter() - start < 20
 
 
@@ -319,8 +326,12 @@ CHILD = {
 def test_foreign_code_that_fails_is_a_mesh_error(case):
     function, arguments, words = CHILD[case]
     with pytest.raises(MeshError, match=words):
-        run_apart(
-            function, *arguments, memory=2**31, seconds=1 if case == "hangs" else 30, what="job"
+        run_in_sandbox(
+            function,
+            *arguments,
+            memory_limit=2**31,
+            timeout=1 if case == "hangs" else 30,
+            task="job",
         )
 
 
@@ -342,7 +353,7 @@ resource.setrlimit(resource.RLIMIT_AS, (2**31, 2**31))
 from pathlib import Path
 from signorini.exceptions import MeshError
 from signorini.mesh import imported, parse
-imported.run_apart = lambda _, path, **limits: parse.parse(path)
+imported.run_in_sandbox = lambda _, path, **limits: parse.parse(path)
 folder, verdicts = Path(sys.argv[1]), {"read": 0, "refused": 0}
 for path in sorted(folder.iterdir()):
     content = path.read_bytes()
@@ -355,7 +366,9 @@ for path in sorted(folder.iterdir()):
             if kind == 0:
                 broken[k] = rng.randrange(256)
             elif kind == 1:
-                broken[k : k + 1] = rng.choice([b"9999999999", b"-", b"\\n", b"nan", b"1e400", b"\\x00", b"<", b"$"])
+                broken[k : k + 1] = rng.choice(
+                    [b"9999999999", b"-", b"\\n", b"nan", b"1e400", b"\\x00", b"<", b"$"]
+                )
             elif kind == 2:
                 del broken[k : k + rng.randint(1, 40)]
             elif kind == 3:
@@ -378,7 +391,7 @@ print(verdicts)
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs RLIMIT_AS")
 def test_random_corruptions_of_files_give_a_mesh_or_a_mesh_error(write, tmp_path):
-    """350 files with bytes changed, dropped, repeated; in one process, that must survive them all."""
+    """350 files with bytes changed, dropped, repeated, read by one process that must survive."""
     source = meshio.read(write(gmsh()))
     folder = tmp_path / "fuzz"
     folder.mkdir()

@@ -121,3 +121,11 @@ def refusal(path, groups=None):
     assert "\n" not in message
     assert len(message) < 600
     return message
+
+
+# An .xdmf: the format of its points, and where or what they are.
+XDMF = (
+    '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY">'
+    '<DataItem Dimensions="3 2" Format="{}">{}</DataItem>'
+    "</Geometry></Grid></Domain></Xdmf>"
+)

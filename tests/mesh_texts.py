@@ -107,8 +107,9 @@ def vtu(points="0 0 0 1 0 0 0 1 0", doctype="", options="", format="ascii", appe
 
 
 def refusal(path, groups=None):
-    """The message with which a file is refused, one line that starts with the file's name or the
-    section.
+    """The message with which a file is refused.
+
+    It is one line that starts with the file's name or the section.
     """
     with pytest.raises(MeshError) as caught:
         read_mesh(

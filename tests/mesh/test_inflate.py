@@ -30,8 +30,9 @@ def zlib_block(megabytes):
 
 @pytest.mark.parametrize("megabytes", [63, 80])
 def test_what_a_file_decompresses_to_is_counted(monkeypatch, write, megabytes):
-    """80 kB of zeros: what is decompressed stops one byte beyond the limit, 64 MiB and 50 times the
-    file's size.
+    """80 kB of zeros: decompression stops one byte beyond the limit.
+
+    The limit is 64 MiB and 50 times the file's size.
     """
     path = write(zlib_block(megabytes), "bomb.vtu")
     limit, lengths = inflate.most(path.stat().st_size), []

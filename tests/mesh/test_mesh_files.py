@@ -1,6 +1,4 @@
-"""Which files a mesh file stands for, held against what reading it opens, in every format that can
-be written.
-"""
+"""Which files a mesh file stands for, held against what reading it opens, in every format."""
 
 import json
 import os

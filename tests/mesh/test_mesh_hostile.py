@@ -140,9 +140,7 @@ print(json.dumps(answers))
 
 @pytest.fixture(scope="module")
 def verdicts(tmp_path_factory):
-    """Every hostile file read by one process under a memory cap: case -> (verdict, message,
-    seconds).
-    """
+    """Case -> (verdict, message, seconds): all files read by one process under a memory cap."""
     folder = tmp_path_factory.mktemp("hostile")
     paths = {}
     for case, (name, content, _) in HOSTILE.items():

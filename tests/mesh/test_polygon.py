@@ -1,6 +1,4 @@
-"""Polygons: what is refused, against an exact oracle; area, corners, names and quality of what is
-meshed.
-"""
+"""Polygons: what is refused, by an exact oracle; area, names and quality of what is meshed."""
 
 import itertools
 from unittest import mock

@@ -59,7 +59,7 @@ def _weighted(element, rule, number_of_triangles):
 def _on_grid(grid, element, f, points, shape):
     """A block of rows of cells at a time."""
     b = np.zeros(element.size(grid))
-    for first, last in grid.row_blocks():
+    for first, last in grid.row_chunks():
         parts = [
             _cell_loads(grid, f, points, shape, corners, first, last) for corners in grid.corners
         ]

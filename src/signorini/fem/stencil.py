@@ -13,7 +13,7 @@ def apply_stiffness(grid, element, u):
     """A @ u for element ``"P1"`` or ``"CR"`` on a `Grid`; u and the result have shape (ndof,)."""
     hx, hy = grid.spacing
     result = np.zeros_like(u)
-    for first, last in grid.row_blocks():
+    for first, last in grid.row_chunks():
         _STENCILS[element](grid, hy / hx, hx / hy, u, result, first, last)
     return result
 
@@ -58,7 +58,7 @@ def _diagonal_p1(grid, kx, ky):
 
 def _diagonal_cr(grid, kx, ky):
     result = np.zeros(grid.number_of_facets)
-    for first, last in grid.row_blocks():
+    for first, last in grid.row_chunks():
         h = np.full((last - first + 1, grid.nx), 4.0 * ky)
         h[[0, -1]] *= 0.5
         v = np.tile(4.0 * kx * _halved_ends(grid.nx + 1), (last - first, 1))

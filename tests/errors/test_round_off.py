@@ -13,8 +13,7 @@ from signorini.errors.round_off import RoundOff, norm_floors
 from signorini.errors.unresolved import unresolved
 from signorini.exact import family, read_exact
 from signorini.exceptions import SignoriniError
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.report.expectations import check_expectations
 from signorini.scene.statement import ProblemStatement

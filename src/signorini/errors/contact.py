@@ -6,7 +6,7 @@ import numpy as np
 
 from signorini.errors.graded import graded, root, square, times_to_cut
 from signorini.fem.contact_line import contact_flux, critical_points
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.quadrature import interval_rule
 from signorini.mesh.boundary_trace import find_boundary_trace as find_side
 

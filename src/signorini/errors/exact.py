@@ -15,7 +15,7 @@ from signorini.errors.norms import GRADIENT
 from signorini.errors.pieces import Field, pieces
 from signorini.errors.reference import NORMS
 from signorini.exceptions import SceneError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 
 
 class ExactErrors:

@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.errors.projection import squared_l2
 from signorini.exceptions import MeshError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.quadrature import triangle_rule
 
 # Corners of the quarters of a cell (bottom, right, top, left), in units of the cell: (4, 3, 2), and

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.errors.graded import NEAR, PARTS, graded, near_singular, square, times_to_cut
 from signorini.errors.projection import prolong
 from signorini.fem.grid_lines import points_on_lines, weighted
@@ -161,12 +161,12 @@ def _triangles(p, t, area, field, singular_points, times=None):
         times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
     rule = _composite(times)
     near = np.zeros(area.size, dtype=bool)
-    for cells in blocks(area.size, max(1, CHUNK // rule[1].size)):
+    for cells in chunk_slices(area.size, max(1, CHUNK // rule[1].size)):
         corners = p[:, t[:, cells]]
         near[cells] = near_singular(corners, singular_points)
         yield _whole(corners, area, field, cells, ~near[cells], rule)
     near = np.flatnonzero(near)
-    for cells in blocks(near.size, max(1, CHUNK // rule[1].size)):
+    for cells in chunk_slices(near.size, max(1, CHUNK // rule[1].size)):
         yield from _parts(p, t, area, field, singular_points, times, near[cells])
 
 

@@ -21,7 +21,7 @@ from signorini.errors.graded import scaled_weight
 from signorini.errors.norms import DOMAIN
 from signorini.errors.projection import project, prolong, squared_l2
 from signorini.exceptions import MeshError, SceneError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.quadrature import triangle_rule
 
 NORMS = ("l2", "h1_semi", "h1")

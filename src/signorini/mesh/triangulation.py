@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import LABELS
 from signorini.mesh.facets import middles, pair_keys, refined_facets, unique_facets
@@ -177,7 +177,7 @@ class Triangulation:
         """
         if self.parent is not None:
             return self.parent.stretch
-        return max(self._stretch(cells) for cells in blocks(self.number_of_triangles))
+        return max(self._stretch(cells) for cells in chunk_slices(self.number_of_triangles))
 
     def _stretch(self, cells):
         """The same of some triangles."""

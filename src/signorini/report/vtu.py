@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.boundary import LABELS
 from signorini.storage import replacing
 

@@ -10,14 +10,11 @@ import numpy as np
 
 from signorini.exceptions import SceneError
 from signorini.fem.coefficient import coefficient_on
+from signorini.fem.data_checks import check_corners, check_poles
 from signorini.fem.elements import find_element
 from signorini.fem.load import assemble_load
 from signorini.fem.stencil import apply_stiffness, contact_fluxes
-from signorini.formula import Formula
 from signorini.mesh.grid import Grid
-
-_ROUNDING = 1e-10  # relative, within which obstacle and Dirichlet data meet at a corner
-_COARSE = 2**15  # triangles up to which poles of f are looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,13 +248,13 @@ def discretize_on(mesh, element, statement):
     Problem
     """
     finite_element, data = find_element(element), statement.data
-    _check_poles(mesh, data.f)
+    check_poles(mesh, data.f)
     fixed = finite_element.boundary_dofs(mesh, "dirichlet")
     contact = finite_element.boundary_dofs(mesh, "contact")
     contact = np.setdiff1d(contact, fixed, assume_unique=True)
     lower = data.obstacle(*finite_element.nodes(mesh, contact))
     fixed_values = data.dirichlet(*finite_element.nodes(mesh, fixed))
-    _check_corners(mesh, data, max(_size(lower), _size(fixed_values)))
+    check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))
     return Problem(
         element=finite_element.name,
         mesh=mesh,
@@ -270,36 +267,5 @@ def discretize_on(mesh, element, statement):
     )
 
 
-def _size(values):
+def _largest(values):
     return np.max(np.abs(values), initial=0.0)
-
-
-def _check_poles(mesh, f):
-    """Evaluate f at vertices and edge midpoints of coarse meshes, where poles tend to be.
-
-    Quadrature may not meet them there.
-    """
-    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
-        f(*mesh.p)
-        a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
-        f(*(0.5 * (a + b)))
-
-
-def _check_corners(mesh, data, size):
-    """Refuse an obstacle above the Dirichlet data at a shared corner.
-
-    The trace would jump there, and no function would be admissible: K is empty.
-    """
-    shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
-    x, y = mesh.points(shared)
-    obstacle, dirichlet = (
-        formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet)
-    )
-    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
-    if above.any():
-        k = int(np.flatnonzero(above)[0])
-        raise SceneError(
-            f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet "
-            f"parts meet: obstacle {obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; "
-            "lower the obstacle or raise dirichlet there"
-        )

@@ -44,7 +44,7 @@ def triangle_rule(rule, number_of_triangles=0):
     Examples
     --------
     >>> points, weights = triangle_rule("midpoints")
-    >>> points[:, 0].tolist(), round(weights.sum(), 12)
+    >>> points[:, 0].tolist(), round(float(weights.sum()), 12)
     ([0.5, 0.5, 0.0], 1.0)
     """
     if rule in _NAMED:

@@ -72,18 +72,18 @@ class ExactErrors:
             Where the exact solution or its gradient is not finite.
         """
         values = find_element(element).vertex_values(mesh, u)
-        asked = set(self.norms)
-        slopes = mesh.gradients(values) if asked & set(GRADIENT) else None
+        wanted = set(self.norms)
+        slopes = mesh.gradients(values) if wanted & set(GRADIENT) else None
         weight, exponent = None, 0
-        if "energy" in asked and coefficient is not None:
+        if "energy" in wanted and coefficient is not None:
             weight, exponent = scaled_weight(coefficient)
         squares = self._squares(mesh, Field(values, slopes, weight))
-        needed = {norm for norm, users in _NEEDED_FOR.items() if asked & users}
+        needed = {norm for norm, users in _NEEDED_FOR.items() if wanted & users}
         norms = {
             norm: root(squares[norm]) if norm in needed else None
             for norm in dict.fromkeys((*ALWAYS_NAMED, *self.norms))
         }
-        if "energy" in asked:
+        if "energy" in wanted:
             norms["energy"] = float(np.ldexp(norms["energy"], exponent))
         return norms
 

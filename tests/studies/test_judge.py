@@ -10,8 +10,7 @@ import pytest
 
 from builders import DATA, delaunay, grid, statement
 from rational import exact_solution, rounded
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.grid import SIDES
 from signorini.mesh.labels import labelled

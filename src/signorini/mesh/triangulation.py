@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
 from signorini.mesh import refinement
 from signorini.mesh.boundary import LABELS
@@ -187,7 +187,7 @@ class Triangulation:
         """
         if self.parent is not None:
             return self.parent.stretch
-        return max(self._stretch(cells) for cells in blocks(self.number_of_triangles))
+        return max(self._stretch(cells) for cells in chunk_slices(self.number_of_triangles))
 
     def _stretch(self, cells):
         squares = (self.edge_vectors(cells) ** 2).sum(axis=1)

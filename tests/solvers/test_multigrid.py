@@ -19,6 +19,7 @@ from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
+from signorini.solvers.dot import dot
 from signorini.solvers.hierarchy import Cycle, build_hierarchy
 from signorini.studies.stability.problems import instance
 from signorini.work import counting
@@ -99,6 +100,12 @@ def test_a_cycle_is_symmetric_and_positive(element):
     assert cycle(x) @ y == pytest.approx(x @ cycle(y), rel=1e-12)
     assert cycle(x) @ x > 0
     assert_array_equal(cycle(x)[held], 0)
+
+
+@pytest.mark.parametrize("size", [0, 1, 8191, 8192, 8193, 20000])
+def test_products_of_vectors_by_pieces(size):
+    x, y = np.random.default_rng(0).integers(-9, 9, (2, size)).astype(float)
+    assert dot(x, y) == np.sum(x * y)
 
 
 @pytest.mark.parametrize(

@@ -72,19 +72,39 @@ def row_sums(A):
     Empty where all are.
     """
     sums = np.zeros(A.shape[0])
-    for rows, entries, starts in _chunks(A):
+    for rows, entries, starts in _row_chunks(A):
         data = A.data[entries]
-        total = np.add.reduceat(data, starts)
-        sizes = np.add.reduceat(np.abs(data), starts)
+        total = np.add.reduceat(data, starts[:-1])
+        sizes = _sums_of_sizes(np.abs(data), starts)
         sums[rows] = np.where(np.abs(total) <= _ROUNDING * sizes, 0.0, total)
     return sums if sums.any() else np.zeros(0)
 
 
-def _chunks(A):
-    """Slices of rows, of their entries, and where among these each row starts."""
+def _row_chunks(A):
+    """A sparse matrix in pieces of some rows each.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (m, n)
+
+    Yields
+    ------
+    rows, entries : slice
+        The rows, and their entries.
+    starts : ndarray of int
+        Where among these entries each row starts, and at last where the last one ends.
+    """
     for rows in chunk_slices(A.shape[0]):
         first = A.indptr[rows.start : rows.stop + 1]
-        yield rows, slice(first[0], first[-1]), first[:-1] - first[0]
+        yield rows, slice(first[0], first[-1]), first - first[0]
+
+
+def _sums_of_sizes(sizes, starts):
+    """The sum of the sizes in each row, shape (m,); a sparse product is the fastest way to it."""
+    from scipy.sparse import csr_array
+
+    columns = np.zeros(sizes.size, dtype=starts.dtype)
+    return csr_array((sizes, columns, starts), shape=(starts.size - 1, 1)) @ np.ones(1)
 
 
 def _by_differences(A, b, u, rows, sums, fluxes):
@@ -92,16 +112,16 @@ def _by_differences(A, b, u, rows, sums, fluxes):
     count(products=rows is None)
     sums = row_sums(A) if sums is None else sums
     result = b.copy()
-    for part, entries, starts in _chunks(A):
+    for part, entries, starts in _row_chunks(A):
         own = u[part] if rows is None else u[rows[part]]
-        terms = u[A.indices[entries]]
-        terms -= np.repeat(own, np.diff(A.indptr[part.start : part.stop + 1]))
+        terms = u.take(A.indices[entries])
+        terms -= np.repeat(own, np.diff(starts))
         terms *= A.data[entries]
-        result[part] -= np.add.reduceat(terms, starts)
+        result[part] -= np.add.reduceat(terms, starts[:-1])
         if sums.size:
             result[part] -= sums[part] * own
         if fluxes is not None:
-            fluxes[part] = np.add.reduceat(np.abs(terms, out=terms), starts)
+            fluxes[part] = _sums_of_sizes(np.abs(terms, out=terms), starts)
             if sums.size:
                 fluxes[part] += np.abs(sums[part] * own)
     return result

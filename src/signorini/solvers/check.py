@@ -3,6 +3,7 @@
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.solvers.dot import dot
 
 _CONTRAST = 1e16  # of a coefficient: what double precision can hold side by side
 
@@ -78,7 +79,7 @@ def check_symmetric(A):
     x = np.random.default_rng(0).random(A.shape[0]) - 0.5
     y = x[::-1].copy()
     Ax, Ay = A @ x, A @ y
-    if not abs(x @ Ay - y @ Ax) <= 1e-9 * np.sqrt(x @ x) * np.sqrt(Ax @ Ax):
+    if not abs(dot(x, Ay) - dot(y, Ax)) <= 1e-9 * np.sqrt(dot(x, x)) * np.sqrt(dot(Ax, Ax)):
         raise SolverError(
             "problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form"
         )

@@ -5,6 +5,7 @@ part in view.
 import numpy as np
 
 from signorini.fem.residual import BELOW, EPS
+from signorini.solvers.dot import dot
 from signorini.solvers.found import ROUNDING
 from signorini.solvers.solution import largest
 from signorini.work import count
@@ -59,14 +60,14 @@ class Descent:
                 or (not self.tolerance and error <= DIGITS * first)
             ):
                 return certain
-            before, rz = rz, r @ z
+            before, rz = rz, dot(r, z)
             if not rz > 0.0:
                 return certain
             bend = 0.0 if p is None else rz / before
             p = z if p is None else np.add(np.multiply(p, bend, out=p), z, out=p)
             Ap = level.product(p)
             count(products=1, cycles=1)
-            energy = p @ Ap
+            energy = dot(p, Ap)
             if not energy > 0.0:  # the square of what is missing is no double any more
                 return certain
             step = rz / energy
@@ -144,12 +145,12 @@ def solved(level, cycle, load, tolerance):
     p, rz = None, 1.0
     for _ in range(_PATIENCE):
         z = cycle(r)
-        before, rz = rz, r @ z
+        before, rz = rz, dot(r, z)
         if not rz > 0.0:
             break
         p = z if p is None else z + (rz / before) * p
         Ap = level.product(p)
-        step = rz / (p @ Ap)
+        step = rz / dot(p, Ap)
         x += step * p
         r -= step * Ap
         if largest(step * p) <= tolerance * largest(x):

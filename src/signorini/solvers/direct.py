@@ -14,6 +14,7 @@ from signorini.fem.residual import BELOW, EPS, residual, residual_and_fluxes, ro
 from signorini.memory import DIRECT, check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
+from signorini.solvers.dot import dot
 from signorini.solvers.found import (
     NO_DIGIT,
     SAFETY,
@@ -153,11 +154,11 @@ class _Body:
         for _ in range(_STEPS):
             if not step:
                 return found, force, (0.0, 0.0)
-            rz, before = float(r @ z), rz
+            rz, before = float(dot(r, z)), rz
             p *= rz / before
             p += z
             Ap = -residual(self.problem.A, nothing, p, self.sums)
-            energy = float(p @ Ap)
+            energy = float(dot(p, Ap))
             if not energy > 0.0:  # the square of what is missing is no double any more
                 break
             length = rz / energy

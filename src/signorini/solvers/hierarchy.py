@@ -61,8 +61,8 @@ class Level:
 
     @cached_property
     def R(self):
-        """Restriction, the transpose of the prolongation, CSR."""
-        return self.P.T.tocsr()
+        """Restriction, the transpose of the prolongation, CSC: it shares the memory of that."""
+        return self.P.T
 
     @cached_property
     def diagonal(self):
@@ -155,7 +155,7 @@ def _algebraic(A, robust=False):
             coarse = csr_array(found[-1].A)
             break
         levels.append(Level(coarse, P, robust))
-        coarse = levels[-1].R @ coarse @ P
+        coarse = (levels[-1].R @ coarse @ P).tocsr()
     return [*levels, Level(coarse, robust=robust)]
 
 

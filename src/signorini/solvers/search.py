@@ -10,6 +10,7 @@ from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.contact import Exchange
 from signorini.solvers.descent import Descent, solved
+from signorini.solvers.dot import dot
 from signorini.solvers.found import SAFETY, Errors, Released, bound_of, proved
 from signorini.solvers.hierarchy import preconditioner
 from signorini.solvers.solution import largest
@@ -157,7 +158,7 @@ class Search:
         gaps = pushed + self.left
         error = SAFETY * (moved + local) + self.left
         stiffness = self.levels[0].diagonal[c]
-        together = np.full(c.shape, SAFETY * np.sqrt(rounding @ rounding))
+        together = np.full(c.shape, SAFETY * np.sqrt(dot(rounding, rounding)))
         force = SAFETY * forced + self.left_force
         forces = np.where(self.active, pressed, 0.0) + self.left_force
         return Errors(error, force, gaps, forces, together, stiffness, self.acting())

@@ -65,7 +65,7 @@ def test_the_plain_active_set_method_cycles_on_degenerate_data(name):
 
 
 def test_a_rival_that_raises_gives_no_answer(problem, monkeypatch):
-    def broken(qp, tolerance, deadline):
+    def broken(qp):
         raise RuntimeError("factorisation failed")
 
     monkeypatch.setattr(active_set, "spsolve", broken)

@@ -68,6 +68,29 @@ def test_a_page_in_markdown():
     assert text.endswith("[rows](b.csv) only here\n")
 
 
+PIPED = """
+{% call table("t", groups=(("", 1), ("both", 2))) %}
+The caption
+in two lines.
+
+| x | y | z |
+| :--- | ---: | ---: |
+| first |
+{% for row in rows %}
+| {{ row.name|cell }} | {{ row.size|fixed(".1f") }} | {{ none|fixed(".1f") }} |
+{% endfor %}
+{% endcall %}
+"""
+
+
+def test_a_table_in_the_template_is_the_table_it_looks_like(layout):
+    rows = [["first"], ["a|b", "2.0", "--"]]
+    same = Table(("x", "y", "z"), rows, groups=(("", 1), ("both", 2)))
+    called = '{% call table("t", it) %} The caption in two lines. {% endcall %}'
+    slots = {"rows": [{"name": "a|b", "size": 2}]}
+    assert render_text(PIPED, layout, **slots) == render_text(called, layout, it=same)
+
+
 def test_braces_and_environments_are_balanced():
     text = page("latex")
     assert text.count("{") == text.count("}")

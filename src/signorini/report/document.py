@@ -10,10 +10,19 @@ A page is a Jinja2 template in a light markup::
 
     {% call figure("name") %} The caption of the files name.pdf and name.png. {% endcall %}
 
-    {% call table("name", rows) %} The caption of a `Table`. {% endcall %}
+    {% call table("name") %}
+    The caption.
 
-The variable ``latex`` says which of the two it is rendered to. LaTeX has no links. It needs
-booktabs, graphicx and hyperref.
+    | word | number |
+    | :--- | ---: |
+    {% for row in rows %}
+    | {{ row.name|cell }} | {{ row.size|fixed(".2f") }} |
+    {% endfor %}
+    {% endcall %}
+
+A row of one cell is a heading within the table. Rows may also come as a `Table`, as in
+``table("name", rows)``; its other fields are keywords. The variable ``latex`` says which of the two
+it is rendered to. LaTeX has no links. It needs booktabs, graphicx and hyperref.
 """
 
 import re
@@ -28,6 +37,7 @@ from signorini.report.macros import ESCAPES
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]
+_PIPE = re.compile(r"(?<!\\)\|")
 _VERBATIM = re.compile(r"(\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
 
 
@@ -146,16 +156,31 @@ def _render(page, layout, slots):
 def _float_makers(floats):
     """Functions for ``{% call %}``: each keeps a block and leaves its mark in the text."""
 
-    def add(kind, name, caller, table=None):
+    def add(kind, name, lines, table=None):
         number = 1 + sum(block.kind == kind for block in floats.values())
         mark = f"[{kind} {name}]"
-        floats[mark] = Block(kind, " ".join(caller().split()), name, number, table)
+        floats[mark] = Block(kind, " ".join(" ".join(lines).split()), name, number, table)
         return f"\n\n{mark}\n\n"
 
-    return {
-        "figure": lambda name, caller: add("figure", name, caller),
-        "table": lambda name, table, caller: add("table", name, caller, table),
-    }
+    def figure(name, caller):
+        return add("figure", name, caller().splitlines())
+
+    def table(name, rows=None, *, caller, **form):
+        lines = caller().splitlines()
+        piped = [line for line in lines if line.startswith("|")]
+        caption = [line for line in lines if not line.startswith("|")]
+        return add("table", name, caption, rows or _piped_table(piped, form))
+
+    return {"figure": figure, "table": table}
+
+
+def _piped_table(lines, form):
+    header, marks, *rows = (
+        [cell.strip().replace(r"\|", "|") for cell in _PIPE.split(line.strip()[1:-1])]
+        for line in lines
+    )
+    left = sum(not mark.endswith(":") for mark in marks)
+    return Table(header, rows, left=left, **form)
 
 
 def _block(text):

@@ -29,8 +29,13 @@ def factor(value):
 
 
 def fixed(value, form):
-    """A number in a format of Python, such as ``".1e"``."""
-    return format(value, form)
+    """A number in a format of Python, such as ``".1e"``; two dashes where there is none."""
+    return "--" if value is None or value != value else format(value, form)
+
+
+def cell(text):
+    """A text as a cell of a table, where a bar would end it."""
+    return str(text).replace("|", "\\|")
 
 
 def _two_digits(value):
@@ -43,5 +48,6 @@ FILTERS = {
     "megabytes": megabytes,
     "factor": factor,
     "fixed": fixed,
+    "cell": cell,
 }
 """By name, for the templates of pages."""

@@ -103,7 +103,7 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     assert drawing == {"benchmark figure"}
 
 
-def test_rivals_are_inputs_of_their_duels(built):
+def test_rivals_are_inputs_of_their_comparisons(built):
     inputs = inputs_of_commands(
         built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text
     )

@@ -101,7 +101,7 @@ def render(template, layout, **slots):
     Parameters
     ----------
     template : str
-        File in the folder of the library, such as ``"studies/benchmark/page.md.j2"``.
+        File in the folder of the library, such as ``studies/benchmark/page.md.j2``.
     layout : {"markdown", "latex"}
     **slots
         What the template names: numbers, text, `Table` objects.

@@ -20,7 +20,8 @@ A page is a Jinja2 template in a light markup::
     {% endfor %}
     {% endcall %}
 
-A row of one cell is a heading within the table. Rows may also come as a `Table`, as in
+A line that does not start with a bar continues the row before; a row of one cell is a heading
+within the table. Rows may also come as a `Table`, as in
 ``table("name", rows)``; its other fields are keywords. The variable ``latex`` says which of the two
 it is rendered to. LaTeX has no links. It needs booktabs, graphicx and hyperref.
 """
@@ -34,6 +35,7 @@ import jinja2
 
 from signorini.report import quantities
 from signorini.report.macros import ESCAPES
+from signorini.report.tables import percent
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]
@@ -156,31 +158,28 @@ def _render(page, layout, slots):
 def _float_makers(floats):
     """Functions for ``{% call %}``: each keeps a block and leaves its mark in the text."""
 
-    def add(kind, name, lines, table=None):
+    def add(kind, name, caption, table=None):
         number = 1 + sum(block.kind == kind for block in floats.values())
         mark = f"[{kind} {name}]"
-        floats[mark] = Block(kind, " ".join(" ".join(lines).split()), name, number, table)
+        floats[mark] = Block(kind, " ".join(caption.split()), name, number, table)
         return f"\n\n{mark}\n\n"
 
     def figure(name, caller):
-        return add("figure", name, caller().splitlines())
+        return add("figure", name, caller())
 
     def table(name, rows=None, *, caller, **form):
-        lines = caller().splitlines()
-        piped = [line for line in lines if line.startswith("|")]
-        caption = [line for line in lines if not line.startswith("|")]
-        return add("table", name, caption, rows or _piped_table(piped, form))
+        caption, bar, rows_text = caller().partition("\n|")
+        return add("table", name, caption, rows or _piped_table(bar + rows_text, form))
 
     return {"figure": figure, "table": table}
 
 
-def _piped_table(lines, form):
-    header, marks, *rows = (
-        [cell.strip().replace(r"\|", "|") for cell in _PIPE.split(line.strip()[1:-1])]
-        for line in lines
-    )
+def _piped_table(text, form):
+    rows = [" ".join(row.split())[:-1] for row in text.split("\n|")[1:]]
+    cells = [[cell.strip().replace(r"\|", "|") for cell in _PIPE.split(row)] for row in rows]
+    header, marks, *body = cells
     left = sum(not mark.endswith(":") for mark in marks)
-    return Table(header, rows, left=left, **form)
+    return Table(header, body, left=left, **form)
 
 
 def _block(text):
@@ -239,5 +238,5 @@ def _environment():
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= quantities.FILTERS
+    environment.filters |= quantities.FILTERS | {"percent": percent}
     return environment

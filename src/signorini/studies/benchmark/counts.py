@@ -15,19 +15,8 @@ ALLOWED = 0.1  # growth
 _UNKNOWNS = 10_000
 
 
-def counted_level(scene, element):
-    """The first level, by doubling the coarsest, that has at least 10,000 free unknowns.
-
-    Parameters
-    ----------
-    scene : Scene
-    element : {"P1", "CR"}
-
-    Returns
-    -------
-    n : int
-    problem : Problem
-    """
+def _counted_level(scene, element):
+    """The first level, by doubling the coarsest, with at least so many free unknowns."""
     n = scene.levels[0]
     while True:
         problem = discretize(scene, element, n)
@@ -51,7 +40,7 @@ def count_scene(scene, element):
         peak of what Python's allocators gave out during the solve, assembly included where a route
         needs the matrix. What SuperLU allocates by itself is not among them.
     """
-    n, problem = counted_level(scene, element)
+    n, problem = _counted_level(scene, element)
     coarse = discretize(scene, element, scene.levels[0])
     rows = []
     for method in METHODS:

@@ -63,7 +63,7 @@ def combinations(errors, published):
         that of P1, geometric mean over the levels.
     """
     levels = sorted({int(row["n"]) for row in errors})
-    printed = comparable(published, levels)
+    printed = _comparable(published, levels)
     rows = []
     for (diagonal, load, rule), table in _wide(errors).groupby(_SHARED, sort=False):
         for h1, column in H1.items():
@@ -78,19 +78,8 @@ def combinations(errors, published):
     return rows
 
 
-def comparable(published, levels):
-    """Those of the published numbers that some levels compute.
-
-    Parameters
-    ----------
-    published : sequence of mapping
-    levels : sequence of int
-
-    Returns
-    -------
-    list of mapping
-        The errors of these levels, then the slopes where these are all the levels.
-    """
+def _comparable(published, levels):
+    """The published errors of these levels, and the slopes where these are all the levels."""
     errors = [row for row in published if row["quantity"] == "error"]
     others = [row for row in published if row["quantity"] != "error"]
     whole = {int(row["n"]) for row in errors} == set(levels)

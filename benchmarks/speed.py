@@ -94,7 +94,7 @@ def run_nested(linear):
         from scipy.sparse import eye_array
 
         import signorini
-        from signorini.fem.elements import element as find_element
+        from signorini.fem.elements import find_element
 
         asked = scene()
         linear(eye_array(200, format="csr"))(np.ones(200))  # imports

@@ -6,7 +6,7 @@ them in.
 
 import numpy as np
 
-from signorini.mesh.check import unique_facets
+from signorini.mesh.facets import unique_facets
 from signorini.mesh.triangulation import Triangulation
 
 

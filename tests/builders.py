@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 from skfem import MeshTri
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.boundary import SIDES
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation

@@ -88,9 +88,11 @@ $EndElements
 
 
 VTU = """<?xml version="1.0"?>{doctype}
-<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" {options}><UnstructuredGrid>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" {options}>
+<UnstructuredGrid>
 <Piece NumberOfPoints="3" NumberOfCells="1"><Points>
-<DataArray type="Float64" NumberOfComponents="3" format="{format}" offset="0">{points}</DataArray></Points>
+<DataArray type="Float64" NumberOfComponents="3" format="{format}" offset="0">{points}</DataArray>
+</Points>
 <Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
 <DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
 <DataArray type="Int64" Name="types" format="ascii">5</DataArray></Cells></Piece></UnstructuredGrid>
@@ -105,8 +107,9 @@ def vtu(points="0 0 0 1 0 0 0 1 0", doctype="", options="", format="ascii", appe
 
 
 def refusal(path, groups=None):
-    """The message with which a file is refused, one line that starts with the file's name or the
-    section.
+    """The message with which a file is refused.
+
+    It is one line that starts with the file's name or the section.
     """
     with pytest.raises(MeshError) as caught:
         read_mesh(
@@ -119,3 +122,11 @@ def refusal(path, groups=None):
     assert "\n" not in message
     assert len(message) < 600
     return message
+
+
+# An .xdmf: the format of its points, and where or what they are.
+XDMF = (
+    '<Xdmf Version="3.0"><Domain><Grid><Geometry Type="XY">'
+    '<DataItem Dimensions="3 2" Format="{}">{}</DataItem>'
+    "</Geometry></Grid></Domain></Xdmf>"
+)

@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.grid import Grid
 
 

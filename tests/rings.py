@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 from skfem import MeshTri
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.triangulation import Triangulation
 
 HELD = (

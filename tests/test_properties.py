@@ -212,7 +212,7 @@ def test_a_mesh_file_is_solved_or_refused(
     folder, monkeypatch, moves, labels, bottom, data, element, n
 ):
     """Read in this process: less safe, but faster."""
-    monkeypatch.setattr(imported, "run_apart", lambda _, path, **limits: parse(path))
+    monkeypatch.setattr(imported, "run_in_sandbox", lambda _, path, **limits: parse(path))
     (folder / "square.msh").write_text(
         gmsh(*changed_mesh(SQUARE.p.T.tolist(), SQUARE.t.T.tolist(), moves), bottom)
     )

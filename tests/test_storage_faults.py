@@ -7,7 +7,6 @@ import zipfile
 import numpy as np
 import pytest
 
-from signorini import storage
 from signorini.exceptions import StorageError
 from signorini.storage import read_csv, read_npz, read_table, replacing, write_npz, write_text
 
@@ -160,7 +159,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch)
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(storage.os, "replace", full)
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(
         StorageError, match=r"t\.txt: cannot write \(No space left on device\); free space"
     ):

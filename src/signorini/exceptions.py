@@ -1,4 +1,4 @@
-"""Errors a user can mend: each message is one line that names the place, the value and the remedy."""
+"""Errors a user can mend: each message is one line with the place, the value and the remedy."""
 
 
 class SignoriniError(Exception):

@@ -3,13 +3,20 @@
 import os
 
 from signorini.exceptions import MeshError
+from signorini.fem.element_facts import ELEMENT_FACTS
 
-# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: a grid with its
-# load, discretised and solved by the fourier route; any other mesh, discretised; and solved by the
-# other routes.
-GRID, MESH, DIRECT, MULTIGRID = 30, 85, {"P1": 1100, "CR": 1800}, {"P1": 130, "CR": 400}
-# The same by the name of the route, the frugal first.
-ROUTES = {"fourier": {"P1": GRID, "CR": GRID}, "multigrid": MULTIGRID, "direct": DIRECT}
+# Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: of a grid with its
+# load, discretised and solved by the fourier route, and of any other mesh, discretised.
+GRID, MESH = 30, 85
+# The same by route and element, the frugal route first. What the two other routes need is known to
+# the elements.
+DIRECT = {name: facts.direct_bytes for name, facts in ELEMENT_FACTS.items()}
+MULTIGRID = {name: facts.multigrid_bytes for name, facts in ELEMENT_FACTS.items()}
+ROUTES = {
+    "fourier": dict.fromkeys(ELEMENT_FACTS, GRID),
+    "multigrid": MULTIGRID,
+    "direct": DIRECT,
+}
 _MOST = 2**30  # triangles whose facets 32 bits can number
 
 
@@ -31,29 +38,59 @@ def check_memory(triangles, bytes_each, what):
     """
     if not fits(triangles, bytes_each):
         raise MeshError(
-            f"levels: {what} {shortage(triangles, bytes_each)}; choose smaller levels, or for a rectangle "
-            "set domain.cells to per-side"
+            f"levels: {what} {shortage(triangles, bytes_each)}; choose smaller levels, "
+            "or for a rectangle set domain.cells to per-side"
         )
 
 
 def fits(triangles, bytes_each):
-    """Whether this machine can hold a number of triangles, each of which needs some bytes."""
+    """Whether this machine can hold a number of triangles.
+
+    Parameters
+    ----------
+    triangles : int
+    bytes_each : int
+        Memory that each needs at least.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> fits(1000, GRID), fits(2**31, GRID)
+    (True, False)
+    """
     return triangles * bytes_each <= _memory() and triangles <= _MOST
 
 
 def shortage(triangles, bytes_each):
-    """What a number of triangles needs and what there is, in words."""
+    """What a number of triangles needs and what there is, in words.
+
+    Parameters
+    ----------
+    triangles : int
+    bytes_each : int
+        Memory that each needs at least.
+
+    Returns
+    -------
+    str
+    """
+    count = _plain(triangles)
     if triangles * bytes_each <= _memory():
-        return (
-            f"has {_plain(triangles)} triangles, more than the {_plain(_MOST)} that can be numbered"
-        )
+        return f"has {count} triangles, more than the {_plain(_MOST)} that can be numbered"
     needed, given = _plain(triangles * bytes_each / 1e9), _plain(_memory() / 1e9)
-    return f"has {_plain(triangles)} triangles and needs at least {needed} GB of memory, but there are {given} GB here"
+    return (
+        f"has {count} triangles and needs at least {needed} GB of memory, "
+        f"but there are {given} GB here"
+    )
 
 
 def _plain(size):
-    """A number to the last digit before the point, a small one to two digits: no reader wants
-    2.8e+02.
+    """A number to the last digit before the point, and a small one to two digits.
+
+    No reader wants 2.8e+02.
     """
     if 1e7 <= size < 1e11:
         return f"{size / 1e6:.0f} million"

@@ -1,5 +1,6 @@
-"""Words of error messages: a value as a user typed it, cut to a bearable length, and the nearest of
-the known names.
+"""Words of error messages: a value as it was given, and the nearest of the known names.
+
+Both are cut to a bearable length.
 """
 
 import difflib
@@ -10,14 +11,25 @@ WIDTH = 60  # of a value that is shown
 
 
 def shown(value):
-    """A value as JSON, cut to 60 characters; of a long list or text only the beginning is looked
-    at.
+    """A value as JSON, cut to 60 characters.
+
+    Of a long list or text only the beginning is looked at.
+
+    Examples
+    --------
+    >>> shown({"n": [2, 4]})
+    '{"n": [2, 4]}'
     """
     text = json.dumps(_beginning(value), default=lambda _: "...", ensure_ascii=False)
+    return _cut(text)
+
+
+def _cut(text):
     return text if len(text) <= WIDTH else f"{text[: WIDTH - 3]}..."
 
 
 def _beginning(value, deep=4):
+    """What of a value can be shown: a few levels of lists and dicts, the first entries of each."""
     if isinstance(value, str):
         return value[: WIDTH + 1]
     if isinstance(value, int) and abs(value) >= 10**WIDTH:
@@ -33,14 +45,46 @@ def _beginning(value, deep=4):
 
 
 def nearest(word, known):
-    """A hint: the nearest of the known words, and the first 40 of them."""
+    """A hint: the nearest of the known words, and the first 40 of them.
+
+    Parameters
+    ----------
+    word : object
+        What was given; what is not text is near to nothing.
+    known : iterable of str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> nearest("contakt", ["contact", "neumann"])
+    'did you mean contact? known: contact, neumann'
+    """
     known = list(known)
     near = difflib.get_close_matches(str(word)[:200], known, n=1, cutoff=0.5)
     return (f"did you mean {near[0]}? " if near else "") + f"known: {listed(known)}"
 
 
 def listed(names, most=40):
-    """Names with commas between them, at most so many, each at most 60 characters long."""
+    """Names with commas between them, each cut to 60 characters.
+
+    Parameters
+    ----------
+    names : iterable of str
+    most : int, optional
+        How many are named; of the others the number is told.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> listed(["a", "b", "c"], most=2)
+    'a, b and 1 more'
+    """
     names = list(names)
-    texts = [name if len(name) <= WIDTH else f"{name[: WIDTH - 3]}..." for name in names[:most]]
-    return ", ".join(texts) + (f" and {len(names) - most} more" if len(names) > most else "")
+    text = ", ".join(_cut(name) for name in names[:most])
+    return f"{text} and {len(names) - most} more" if len(names) > most else text

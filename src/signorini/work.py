@@ -1,7 +1,7 @@
-"""The work of a solve, counted: what tells a slower method from a busy machine.
+"""The work of a solve, counted: it tells a slower method from a busy machine.
 
-Solvers report what they do by `count`; whoever wants to know solves within `counting`. Elsewhere
-`count` does nothing.
+Solvers report what they do by `count`. Within a block `counting` it is added up; elsewhere `count`
+does nothing.
 """
 
 from contextlib import contextmanager
@@ -40,7 +40,7 @@ _work = ContextVar("work", default=None)
 
 @contextmanager
 def counting():
-    """Count within a block; blocks nest, and the work of an inner one is not the outer one's.
+    """Count within a block; the work of a nested block is not counted in the outer one.
 
     Yields
     ------
@@ -63,8 +63,12 @@ def counting():
 
 
 def count(**done):
-    """Add to the counts of the innermost `counting` block, if there is one; the names are those of
-    `Work`.
+    """Add to the counts of the innermost `counting` block, if there is one.
+
+    Parameters
+    ----------
+    **done : int
+        By the names of `Work`.
     """
     work = _work.get()
     if work is not None:

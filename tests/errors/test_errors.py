@@ -1,4 +1,4 @@
-"""Errors against a reference: by brute force, by closed form, and at the edges of floating point."""
+"""Errors against a reference: by brute force, by closed form, and at the range's ends."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from signorini.errors import projection, reference
 from signorini.errors.projection import project, prolong, squared_l2
 from signorini.errors.reference import ReferenceErrors
 from signorini.exceptions import MeshError, SignoriniError
-from signorini.fem.elements import ELEMENTS, element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 
@@ -46,15 +46,15 @@ def fine(request, coarse):
 
 @pytest.fixture(params=ELEMENTS)
 def kind(request):
-    return element(request.param)
+    return find_element(request.param)
 
 
 def random_function(mesh, name, seed=0):
-    return np.random.default_rng(seed).standard_normal(element(name).size(mesh))
+    return np.random.default_rng(seed).standard_normal(find_element(name).size(mesh))
 
 
 def evaluate(mesh, name, u, x, y):
-    """A discrete function and its gradient at points, by looking every point up in every triangle."""
+    """A discrete function and its gradient at points, each looked up in every triangle."""
     (ax, ay), (bx, by), (cx, cy) = (mesh.p[:, v][:, :, None] for v in mesh.t)
     twice_area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     gradients = (
@@ -76,8 +76,8 @@ def evaluate(mesh, name, u, x, y):
 
 
 def brute_force(fine, fine_name, u, coarse, name, v, coefficient):
-    """Norms of the difference by scikit-fem's quadrature on the fine mesh, exact for its squares."""
-    kind = element(fine_name)
+    """Norms of the difference by scikit-fem's quadrature on the fine mesh, exact for squares."""
+    kind = find_element(fine_name)
     basis = Basis(fine.skfem, kind.skfem(), intorder=2)
     found = basis.interpolate(u)
     x, y = np.asarray(basis.global_coordinates())
@@ -143,7 +143,7 @@ def test_a_rule_is_applied_on_the_references_mesh(coarse, kind, rule):
     points = np.full((3, 1), 1 / 3) if rule == "centroid" else (1 - 3 * inward) * np.eye(3) + inward
     basis = Basis(
         fine.skfem,
-        element("P1").skfem(),
+        find_element("P1").skfem(),
         quadrature=(points[1:], np.full(points.shape[1], 0.5 / points.shape[1])),
     )
     x, y = np.asarray(basis.global_coordinates())

@@ -19,7 +19,7 @@ from signorini.errors.rates import slopes
 from signorini.exact import ExactSolution, derived_data, family, read_exact
 from signorini.exceptions import SceneError
 from signorini.fem import grid_lines as cells
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.problem import discretize_on
 from signorini.formula import Formula
 from signorini.mesh.grid import Grid

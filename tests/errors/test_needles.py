@@ -11,7 +11,7 @@ from signorini.errors.graded import SHAPELY, graded
 from signorini.errors.needles import is_needle
 from signorini.errors.pieces import RADON
 from signorini.exact import ExactSolution, family
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.triangulation import Triangulation
 
 HEIGHTS = [10.0**-k for k in (1, 2, 4, 6, 8, 10)]

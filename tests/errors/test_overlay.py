@@ -11,7 +11,7 @@ from builders import grid, perturbed
 from signorini.errors.overlay import Overlay
 from signorini.errors.reference import ReferenceErrors
 from signorini.exceptions import MeshError
-from signorini.fem.elements import ELEMENTS, element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.patterns import PATTERNS, criss_cross
 
@@ -27,7 +27,7 @@ def level(diagonal, n):
 
 
 def random_function(mesh, name, seed):
-    return name, np.random.default_rng(seed).standard_normal(element(name).size(mesh))
+    return name, np.random.default_rng(seed).standard_normal(find_element(name).size(mesh))
 
 
 def brute_force(fine, reference, coarse, solution, n):

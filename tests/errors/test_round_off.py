@@ -9,12 +9,11 @@ from builders import PAPER, delaunay, grid, statement
 from signorini.errors.exact import ExactErrors
 from signorini.errors.measure import against_exact, against_reference
 from signorini.errors.rates import rate_rows
-from signorini.errors.round_off import RoundOff, norm_floors
+from signorini.errors.round_off import RoundOff, round_off_bounds
 from signorini.errors.unresolved import unresolved
 from signorini.exact import family, read_exact
 from signorini.exceptions import SignoriniError
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.report.expectations import check_expectations
 from signorini.scene.statement import ProblemStatement
@@ -125,7 +124,7 @@ def test_an_accuracy_that_errs_on_the_safe_side_stars_no_sound_error(element, ma
         unsure = stored(problem, solve(problem, "direct"), n)
         unsure.accuracy = unsure.multiplier_accuracy = unsure.residual = 0.2
         found.append(errors(unsure))
-        floors = norm_floors(asked.triangulations.level(n), RoundOff.of(unsure), norms)
+        floors = round_off_bounds(asked.triangulations.level(n), RoundOff.of(unsure), norms)
         assert all(found[-1][norm] < floors[norm] for norm in norms)
         assert found[-1]["floor"] == ""
     assert found[0]["l2"] / found[1]["l2"] > 2
@@ -205,7 +204,7 @@ def test_a_rounding_of_every_unknown_is_below_the_floor_and_a_visible_error_abov
     k = rng.uniform(1e-3, 1e3, mesh.number_of_triangles)
     truth = 1e5 * rng.standard_normal(problem.b.size)
     domain = SimpleNamespace(level=lambda n: mesh)
-    floors = norm_floors(mesh, RoundOff(1.0, 1.0), DOMAIN, k)
+    floors = round_off_bounds(mesh, RoundOff(1.0, 1.0), DOMAIN, k)
     assert list(floors) == list(DOMAIN)
     exactly = {
         "accuracy": 0.0,
@@ -229,13 +228,13 @@ def test_a_rounding_of_every_unknown_is_below_the_floor_and_a_visible_error_abov
 def test_floors_have_the_units_of_their_norms():
     """Under other units of length, of u and of the coefficient each scales as its norm does."""
     plain, long = (
-        norm_floors(grid(8, size=(s, s)), RoundOff(1.0, 1e-15), INTEGRALS) for s in (1.0, 4.0)
+        round_off_bounds(grid(8, size=(s, s)), RoundOff(1.0, 1e-15), INTEGRALS) for s in (1.0, 4.0)
     )
     assert long == {
         norm: plain[norm] * {"l2": 4.0, "trace_l2": 2.0, "multiplier_l2": 0.5}.get(norm, 1.0)
         for norm in plain
     } | {"h1": pytest.approx(np.hypot(4 * plain["l2"], plain["h1_semi"]))}
-    stiff = norm_floors(grid(8), RoundOff(3.0, 3e-15), INTEGRALS, np.full(128, 4.0))
+    stiff = round_off_bounds(grid(8), RoundOff(3.0, 3e-15), INTEGRALS, np.full(128, 4.0))
     factor = {"energy": 6.0, "multiplier_l2": 12.0}
     assert stiff == pytest.approx(
         {norm: factor.get(norm, 3.0) * plain[norm] for norm in plain}, rel=1e-15
@@ -248,7 +247,7 @@ def test_an_accuracy_is_of_the_variation_and_rounding_of_the_size():
     rounding = RoundOff.of(SimpleNamespace(u=np.array([1e10, 1e10 + 3]), accuracy=1e-8, **found))
     assert rounding.dof == pytest.approx(8 * (3e-8 + np.finfo(float).eps * 1e10))
     assert rounding.force == pytest.approx(8 * 2e-9)
-    assert norm_floors(grid(8), rounding, ["l2"])["l2"] == pytest.approx(rounding.dof)
+    assert round_off_bounds(grid(8), rounding, ["l2"])["l2"] == pytest.approx(rounding.dof)
     worse = rounding.together_with(RoundOff(1.0, 1.0))
     assert worse == RoundOff(1e10 + 3, 1.0, rounding.force, 1e-12)
 

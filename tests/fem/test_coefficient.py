@@ -159,7 +159,8 @@ def test_only_a_mesh_file_has_subdomains(tmp_path, domain):
     boundary = "{contact: 0.1 - y, dirichlet: rest}"
     path = tmp_path / "plain.yaml"
     path.write_text(
-        f"domain: {domain}\nboundary: {boundary}\ndata: {{f: 1, coefficient: {{soft: 2}}}}\nlevels: [2, 4]\n"
+        f"domain: {domain}\nboundary: {boundary}\n"
+        "data: {f: 1, coefficient: {soft: 2}}\nlevels: [2, 4]\n"
     )
     with pytest.raises(
         SceneError,

@@ -9,7 +9,7 @@ from skfem import MeshTri
 from builders import PAPER, delaunay, grid, labelled
 from rings import HELD, ring, solution
 from signorini.fem.contact_line import binding_pieces, contact_flux, contact_line, contact_rows
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.stiffness import assemble_stiffness
 from signorini.mesh.paths import boundary_paths
 from signorini.mesh.triangulation import Triangulation

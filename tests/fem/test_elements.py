@@ -6,7 +6,7 @@ from skfem import Basis, BilinearForm
 
 from builders import PAPER, delaunay, grid, perturbed
 from signorini.exceptions import SceneError
-from signorini.fem.elements import ELEMENTS, element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.quadrature import interval_rule, triangle_rule
 
 MESHES = {
@@ -26,7 +26,7 @@ def mesh(request):
 
 @pytest.fixture(params=ELEMENTS)
 def kind(request):
-    return element(request.param)
+    return find_element(request.param)
 
 
 def edge_means(mesh, function):
@@ -85,7 +85,7 @@ def test_the_degrees_of_freedom_are_counted_by_eulers_formula(kind, mesh):
 
 def test_the_mass_matrix_of_cr_is_diagonal():
     """A third of the area of the one or two triangles at each facet."""
-    mesh, kind = delaunay(1), element("CR")
+    mesh, kind = delaunay(1), find_element("CR")
     mass = (
         BilinearForm(lambda u, v, _: u * v)
         .assemble(Basis(mesh.skfem, kind.skfem(), intorder=2))
@@ -104,7 +104,7 @@ def test_edge_means_commute_with_the_gradient(mesh):
     x, y = np.einsum("dkt,kq->dqt", mesh.p[:, mesh.t], points)
     gradient = np.stack([2 * np.cos(2 * x + y) + y**2, np.cos(2 * x + y) + 2 * x * y])
     mean = np.einsum("dqt,q->dt", gradient, weights)
-    difference = np.abs(mesh.gradients(element("CR").vertex_values(mesh, u)) - mean)
+    difference = np.abs(mesh.gradients(find_element("CR").vertex_values(mesh, u)) - mean)
     longest = np.hypot(*(mesh.p[:, mesh.facets[0]] - mesh.p[:, mesh.facets[1]]))[mesh.t2f].max(
         axis=0
     )
@@ -117,7 +117,7 @@ def test_a_conforming_function_is_a_cr_function(mesh):
     u = rng.standard_normal(mesh.number_of_vertices)
     midpoints = 0.5 * u[mesh.facets].sum(axis=0)
     conforming, nonconforming = (
-        element(name).vertex_values(mesh, v) for name, v in (("P1", u), ("CR", midpoints))
+        find_element(name).vertex_values(mesh, v) for name, v in (("P1", u), ("CR", midpoints))
     )
     np.testing.assert_allclose(conforming, nonconforming, rtol=0, atol=1e-14)
 
@@ -139,6 +139,6 @@ def test_boundary_degrees_of_freedom_lie_on_their_part(kind, mesh, label, line):
 )
 def test_an_unknown_element_is_refused_with_the_known_ones(name, hint):
     with pytest.raises(SceneError, match="unknown element") as error:
-        element(name)
+        find_element(name)
     assert hint in str(error.value)
     assert "P1, CR" in str(error.value)

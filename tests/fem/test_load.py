@@ -7,7 +7,7 @@ from skfem import Basis, BilinearForm, FacetBasis, LinearForm
 from builders import DATA, PAPER, delaunay, grid, perturbed
 from signorini.exceptions import FormulaError
 from signorini.fem import load
-from signorini.fem.elements import ELEMENTS, element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.load import assemble_load
 from signorini.fem.quadrature import triangle_rule
 from signorini.formula import Formula
@@ -33,7 +33,7 @@ def mesh(request):
 
 @pytest.fixture(params=ELEMENTS)
 def kind(request):
-    return element(request.param)
+    return find_element(request.param)
 
 
 def by_scikit_fem(mesh, kind, f, g, rule):
@@ -92,7 +92,9 @@ def test_the_nodal_load_is_that_of_the_interpolant(mesh, kind):
 
 
 def test_for_cr_the_nodal_load_is_the_midpoint_rule(mesh):
-    found = [assemble_load(mesh, element("CR"), F, ZERO, rule) for rule in (NODAL, "midpoints")]
+    found = [
+        assemble_load(mesh, find_element("CR"), F, ZERO, rule) for rule in (NODAL, "midpoints")
+    ]
     np.testing.assert_allclose(*found, rtol=0, atol=1e-14)
 
 
@@ -119,7 +121,7 @@ def test_the_load_of_one_hat():
     1/8, 1/12, 1/8.
     """
     b = assemble_load(
-        grid(1, labels=("dirichlet",) * 4), element("P1"), Formula("x"), ZERO, "exact"
+        grid(1, labels=("dirichlet",) * 4), find_element("P1"), Formula("x"), ZERO, "exact"
     )
     np.testing.assert_allclose(b, [1 / 24, 1 / 12 + 1 / 8, 1 / 24 + 1 / 12, 1 / 8], rtol=1e-14)
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from builders import grid, nodes, statement
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize_on
 from signorini.fem.stencil import apply_stiffness, diagonal
 from signorini.fem.stiffness import assemble_stiffness

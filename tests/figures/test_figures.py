@@ -16,7 +16,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from signorini.fem.contact_line import contact_rows
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.figures.contact_line import draw_contact_line
 from signorini.figures.convergence import draw_convergence
 from signorini.figures.field import COLOURS, draw_field

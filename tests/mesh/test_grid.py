@@ -40,7 +40,8 @@ def test_numbering_is_scikit_fems(mesh):
     np.testing.assert_array_equal(mesh.t2f, other.t2f)
     counts = mesh.number_of_vertices, mesh.number_of_facets, mesh.number_of_triangles
     assert counts == (other.nvertices, other.nfacets, other.nelements)
-    assert mesh.number_of_vertices - mesh.number_of_facets + mesh.number_of_triangles == 1  # Euler
+    vertices, facets, triangles = counts
+    assert vertices - facets + triangles == 1  # Euler
 
 
 def test_every_boundary_facet_lies_on_one_side(mesh):
@@ -58,21 +59,20 @@ def test_every_boundary_facet_lies_on_one_side(mesh):
 )
 def test_sides_lie_where_their_names_say(mesh, side, axis, end):
     line = (mesh.x, mesh.y)[axis][end]
-    vertices = mesh.p[:, mesh.side_vertices(side)]
-    ends = mesh.p[axis, mesh.facets[:, mesh.side_facets(side)]]
-    assert np.all(vertices[axis] == line)
-    assert np.all(ends == line)
-    assert np.all(np.diff(vertices[1 - axis]) > 0)
-    # Facets come in the order of the vertices that they join.
+    vertices = mesh.side_vertices(side)
+    points = mesh.p[:, vertices]
+    assert np.all(points[axis] == line)
+    assert np.all(np.diff(points[1 - axis]) > 0)
     joined = mesh.facets[:, mesh.side_facets(side)]
-    np.testing.assert_array_equal(
-        np.sort(joined, axis=0), [mesh.side_vertices(side)[:-1], mesh.side_vertices(side)[1:]]
-    )
+    assert np.all(mesh.p[axis, joined] == line)
+    # Facets come in the order of the vertices that they join.
+    np.testing.assert_array_equal(np.sort(joined, axis=0), [vertices[:-1], vertices[1:]])
 
 
 def test_a_label_that_no_side_carries_is_empty(mesh):
     whole = grid(3, labels=("neumann",) * 4)
-    assert whole.boundary_facets("contact").size == whole.boundary_vertices("contact").size == 0
+    assert whole.boundary_facets("contact").size == 0
+    assert whole.boundary_vertices("contact").size == 0
     assert whole.boundary_facets("neumann").size == 12
 
 
@@ -92,21 +92,19 @@ def test_the_rectangle_ends_exactly_where_it_should():
 
 
 def test_splitting_the_edges_sorts_them_by_direction(mesh):
+    nx, ny = mesh.nx, mesh.ny
     every = np.arange(mesh.number_of_facets)
-    parts = mesh.split_edges(every)
-    assert [part.shape for part in parts] == [
-        (mesh.ny + 1, mesh.nx),
-        (mesh.ny, mesh.nx + 1),
-        (mesh.ny, mesh.nx),
-    ]
-    np.testing.assert_array_equal(mesh.join_edges(*parts), every)
+    families = mesh.split_edges(every)
+    shapes = [family.shape for family in families]
+    assert shapes == [(ny + 1, nx), (ny, nx + 1), (ny, nx)]
+    np.testing.assert_array_equal(mesh.join_edges(*families), every)
     hx, hy = mesh.spacing
     start, end = (mesh.p[:, ends] for ends in mesh.facets)
-    for part, extent in zip(parts, ((hx, 0), (0, hy), (hx, hy)), strict=True):
-        found = np.abs(end - start)[:, part.ravel()]
-        np.testing.assert_allclose(
-            found, np.broadcast_to(np.reshape(extent, (2, 1)), found.shape), rtol=0, atol=1e-14
-        )
+    extents = np.abs(end - start)
+    for family, extent in zip(families, ((hx, 0), (0, hy), (hx, hy)), strict=True):
+        own = extents[:, family.ravel()]
+        expected = np.broadcast_to(np.reshape(extent, (2, 1)), own.shape)
+        np.testing.assert_allclose(own, expected, rtol=0, atol=1e-14)
 
 
 def test_coarser_keeps_every_second_vertex(nested):
@@ -122,20 +120,18 @@ def test_an_odd_grid_has_none_coarser(shape):
 
 
 def test_children_halve_their_parent(nested):
-    """As documented: local vertex i of child k is the midpoint of i and k, of child 3 that of the
-    two others.
-    """
+    """Local vertex i of child k is the midpoint of i and k; of child 3, that of the two others."""
     parent = nested.coarser()
     corners = np.stack([parent.p[:, v] for v in parent.t])
     for axis in range(2):
         family = nested.vertex_children(nested.p[axis][nested.t])
         for k, i in np.ndindex(3, 3):
-            np.testing.assert_allclose(
-                family[k, i], 0.5 * (corners[i, axis] + corners[k, axis]), rtol=0, atol=1e-14
-            )
+            middle = 0.5 * (corners[i, axis] + corners[k, axis])
+            np.testing.assert_allclose(family[k, i], middle, rtol=0, atol=1e-14)
         for i in range(3):
-            others = corners[(i + 1) % 3, axis] + corners[(i + 2) % 3, axis]
-            np.testing.assert_allclose(family[3, i], 0.5 * others, rtol=0, atol=1e-14)
+            j, k = (i + 1) % 3, (i + 2) % 3
+            middle = 0.5 * (corners[j, axis] + corners[k, axis])
+            np.testing.assert_allclose(family[3, i], middle, rtol=0, atol=1e-14)
 
 
 def test_from_vertex_children_undoes_vertex_children(nested):

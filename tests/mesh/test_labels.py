@@ -1,6 +1,4 @@
-"""Labels of the boundary: by part and by formula, every facet exactly one, in scikit-fem's numbers."""
-
-import doctest
+"""Labels of the boundary, by part and by formula: every facet exactly one."""
 
 import numpy as np
 import pytest
@@ -9,7 +7,6 @@ from hypothesis import strategies as st
 
 from signorini.exceptions import FormulaError, MeshError
 from signorini.formula import Formula
-from signorini.mesh import labels
 from signorini.mesh.boundary import LABELS
 from signorini.mesh.labels import NamedMesh, label_boundary, labelled, with_sides
 from signorini.mesh.patterns import alternating, criss_cross
@@ -26,10 +23,6 @@ def midpoints(mesh, facets):
     return 0.5 * mesh.p[:, mesh.facets[:, facets]].sum(axis=1)
 
 
-def test_examples():
-    assert doctest.testmod(labels).failed == 0
-
-
 def test_facets_have_scikit_fem_numbers_and_labels_survive_refinement():
     from skfem import MeshTri
 
@@ -40,13 +33,10 @@ def test_facets_have_scikit_fem_numbers_and_labels_survive_refinement():
     fine = labelled(MESH, RULES).refined().refined()
     for label, facets in found.items():
         assert np.array_equal(labelled(MESH, RULES).boundary_facets(label), facets)
-        assert fine.boundary_facets(label).size == 16 * facets.size // 4
-        assert set(
-            map(
-                tuple,
-                np.abs(midpoints(fine, fine.boundary_facets(label)) - 0.5).max(axis=0)[:, None],
-            )
-        ) == {(0.5,)}
+        fine_facets = fine.boundary_facets(label)
+        assert fine_facets.size == 4 * facets.size
+        from_centre = np.abs(midpoints(fine, fine_facets) - 0.5).max(axis=0)
+        assert (from_centre == 0.5).all()
     assert (fine.p[1, fine.boundary_vertices("contact")] == 0).all()
 
 

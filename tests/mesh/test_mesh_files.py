@@ -1,6 +1,4 @@
-"""Which files a mesh file stands for, held against what reading it opens, in every format that can
-be written.
-"""
+"""Which files a mesh file stands for, held against what reading it opens, in every format."""
 
 import json
 import os
@@ -32,7 +30,10 @@ from signorini.exceptions import MeshError
 from signorini.mesh.parse import parse
 
 opened, file = [], h5py.File
-sys.addaudithook(lambda event, arguments: opened.append(str(arguments[0])) if event == "open" else None)
+def note(event, arguments):
+    if event == "open":
+        opened.append(str(arguments[0]))
+sys.addaudithook(note)
 h5py.File = lambda name, *arguments: (opened.append(str(name)), file(name, *arguments))[1]
 found = {}
 for path in sys.argv[1:]:

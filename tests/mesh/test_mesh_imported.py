@@ -23,7 +23,7 @@ CLAMPED = {"foundation": "contact", "free": "neumann", "clamped": "dirichlet"}
 @pytest.fixture
 def here(monkeypatch):
     """Files are parsed in this process: less safe, but faster."""
-    monkeypatch.setattr(imported, "run_apart", lambda _, path, **limits: parse(path))
+    monkeypatch.setattr(imported, "run_in_sandbox", lambda _, path, **limits: parse(path))
 
 
 def test_the_gasket_is_read_labelled_and_refined():

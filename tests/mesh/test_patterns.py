@@ -1,6 +1,4 @@
-"""Patterns on rectangles: counts, exact areas and sides, nesting of names; shaken and graded meshes
-stay meshes.
-"""
+"""Patterns on rectangles: counts, exact areas and sides; perturbed and graded ones stay meshes."""
 
 import numpy as np
 import pytest
@@ -142,16 +140,16 @@ def test_refused(case):
 def test_perturbed_meshes_are_meshes_of_the_same_rectangle(pattern, amount):
     mesh = PATTERNS[pattern](7, 5, (-1, 2), (3, 1))
     for seed in range(5):
-        shaken = perturbed(mesh, amount, seed)
-        p, t, _ = check_triangulation(shaken.p, shaken.t)
+        moved_mesh = perturbed(mesh, amount, seed)
+        p, t, _ = check_triangulation(moved_mesh.p, moved_mesh.t)
         assert np.array_equal(t, mesh.t)
-        assert doubled_areas(shaken).sum() == pytest.approx(6, rel=1e-13)
+        assert doubled_areas(moved_mesh).sum() == pytest.approx(6, rel=1e-13)
         for side, ends in mesh.parts.items():
             axis = 1 if side in ("bottom", "top") else 0
             assert np.array_equal(p[axis, ends], mesh.p[axis, ends])
-    assert np.array_equal(perturbed(mesh, amount, 4).p, shaken.p)
-    assert np.array_equal(shaken.p, mesh.p) == (amount == 0)
-    assert np.abs(shaken.p - mesh.p).max() >= 0.03 * amount
+    assert np.array_equal(perturbed(mesh, amount, 4).p, moved_mesh.p)
+    assert np.array_equal(moved_mesh.p, mesh.p) == (amount == 0)
+    assert np.abs(moved_mesh.p - mesh.p).max() >= 0.03 * amount
 
 
 def test_perturbed_keeps_slanted_boundaries_and_the_ends_of_parts():
@@ -161,9 +159,9 @@ def test_perturbed_keeps_slanted_boundaries_and_the_ends_of_parts():
         mesh.t,
         mesh.parts | {"half": mesh.parts["bottom"][:, :2]},
     )
-    shaken = perturbed(slanted, 0.5, 1)
-    assert np.array_equal(shaken.p[:, mesh.parts["left"]], slanted.p[:, mesh.parts["left"]])
-    moved = (shaken.p != slanted.p).any(axis=0)
+    moved_mesh = perturbed(slanted, 0.5, 1)
+    assert np.array_equal(moved_mesh.p[:, mesh.parts["left"]], slanted.p[:, mesh.parts["left"]])
+    moved = (moved_mesh.p != slanted.p).any(axis=0)
     assert list(moved[:5]) == [False, True, False, True, False]
     assert moved[[6, 7, 8, 11, 12, 13]].all()
 

@@ -1,6 +1,4 @@
-"""Polygons: what is refused, against an exact oracle; area, corners, names and quality of what is
-meshed.
-"""
+"""Polygons: what is refused, by an exact oracle; area, names and quality of what is meshed."""
 
 import itertools
 from unittest import mock
@@ -15,6 +13,7 @@ from signorini.mesh import polygon
 from signorini.mesh.check import check_triangulation
 from signorini.mesh.labels import labelled
 from signorini.mesh.polygon import MAX_TRIANGLES, triangulate
+from signorini.mesh.polygon_outline import check_outline
 
 pytest.importorskip("netgen")
 
@@ -156,7 +155,8 @@ BAD = {
     "near overflow": ([(2 * np.array(SQUARE) - 1) * 1.7e308, (), 1], "it must have an area"),
     "passage too narrow": (
         [[(0, 0), (1, 0), (1, 1), (0.5 + 1e-9, 1), (0.5, 0.5), (0.5 - 1e-9, 1), (0, 1)], (), 0.5],
-        "Netgen takes two corners for one; widen narrow passages; the shortest side is 0.5, the mesh size 0.5",
+        "Netgen takes two corners for one; widen narrow passages; "
+        "the shortest side is 0.5, the mesh size 0.5",
     ),
 }
 
@@ -215,7 +215,7 @@ def is_simple(corners):
 def test_random_outlines_are_judged_as_the_definition_does(corners):
     p = np.array(corners, dtype=float).T
     try:
-        polygon._check_outline(p, [p])
+        check_outline(p, [p])
     except MeshError:
         assert not is_simple(corners)
     else:
@@ -236,7 +236,7 @@ def test_random_simple_polygons_are_meshed(corners, size):
     assume(is_simple(corners))
     # In this process: faster.
     with mock.patch.object(
-        polygon, "run_apart", lambda _, *arguments, **limits: polygon.netgen(*arguments)
+        polygon, "run_in_sandbox", lambda _, *arguments, **limits: polygon.netgen(*arguments)
     ):
         mesh = triangulate(corners, size=size)
     a, b, c = (mesh.p[:, v] for v in mesh.t)

@@ -111,25 +111,23 @@ def test_children_halve_their_parent(mesh, times):
     for _ in range(times):
         parent, mesh = mesh, mesh.refined()
     for axis in range(2):
-        corners, family = parent.p[axis][parent.t], mesh.vertex_children(mesh.p[axis][mesh.t])
+        corners, values = parent.p[axis][parent.t], mesh.p[axis][mesh.t]
+        family = mesh.vertex_children(values)
         for k, i in np.ndindex(3, 3):
-            np.testing.assert_allclose(
-                family[k, i], 0.5 * (corners[i] + corners[k]), rtol=0, atol=1e-14
-            )
+            middle = 0.5 * (corners[i] + corners[k])
+            np.testing.assert_allclose(family[k, i], middle, rtol=0, atol=1e-14)
         for i in range(3):
-            np.testing.assert_allclose(
-                family[3, i],
-                0.5 * (corners[(i + 1) % 3] + corners[(i + 2) % 3]),
-                rtol=0,
-                atol=1e-14,
-            )
-        np.testing.assert_allclose(prolong(mesh, corners), mesh.p[axis][mesh.t], rtol=0, atol=1e-14)
+            j, k = (i + 1) % 3, (i + 2) % 3
+            middle = 0.5 * (corners[j] + corners[k])
+            np.testing.assert_allclose(family[3, i], middle, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(prolong(mesh, corners), values, rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3])
 def test_children_keep_the_rows_of_values_on_triangles(mesh, rows):
-    """Whatever their number: the children of a triangle lie in it, so the mean of their centroids
-    is its own.
+    """Whatever their number.
+
+    The children of a triangle lie in it, so the mean of their centroids is its own.
     """
     fine = mesh.refined()
     centroids = np.resize(fine.p[:, fine.t].mean(axis=1), (rows, fine.number_of_triangles))

@@ -7,7 +7,7 @@ from skfem import MeshTri
 from builders import delaunay, grid, labelled
 from rings import HELD, ring, solution
 from signorini.fem.contact_line import contact_line
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.report.field import field_of
 from signorini.storage import read_npz, write_npz
 

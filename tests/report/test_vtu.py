@@ -10,7 +10,7 @@ import meshio
 from builders import delaunay, grid
 from rings import HELD, ring, solution
 from signorini.exceptions import StorageError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.report.vtu import write_vtu
 
 MESHES = {

@@ -18,6 +18,7 @@ from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.triangulation import Triangulation
 from signorini.solvers import METHODS, kkt_residual, multigrid, solve
 from signorini.studies.stability.extended import judge
+from signorini.studies.stability.problems import instance
 
 FORCE = "2*pi*sin(2*pi*x)"
 INCLUSIONS = "where(hypot(x-0.3, y-0.02) < 0.1 or hypot(x-0.8, y) < 0.1, {0}, 1)"
@@ -116,6 +117,24 @@ def test_the_estimate_holds_where_cells_are_graded(element, towards, exponent):
     problem = paper(element, 24, towards, exponent)
     solution = solve(problem)
     assert_proved(solution, judge(problem, solution))
+
+
+@pytest.mark.parametrize(
+    ("load", "seed"), [("biactive", 10), ("huge", 1178), ("white", 1100), ("white", 1130)]
+)
+def test_the_estimate_holds_where_factors_keep_no_digit(load, seed):
+    """Cells stretched by 3e11, 5e13, 2e13 and 1e10, where conjugate gradients may stall."""
+    problem = instance("graded", load, "P1", seed).problem
+    assert problem.mesh.stretch > 5e9
+    solution = solve(problem, "direct")
+    assert solution.status == "solved"
+    assert_proved(solution, judge(problem))
+
+
+def test_a_force_is_no_surer_than_its_own_rounding():
+    """Two stiffly coupled rows, whose roundings cancelled in both samples: once 5e-17."""
+    solution = solve(instance("graded", "white", "P1", 1130).problem, "direct")
+    assert solution.multiplier_accuracy >= np.finfo(float).eps
 
 
 def assert_proved(solution, truth):

@@ -10,8 +10,7 @@ import pytest
 
 from builders import DATA, delaunay, grid, statement
 from rational import exact_solution, rounded
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.grid import SIDES
 from signorini.mesh.labels import labelled
@@ -106,6 +105,9 @@ RATIONAL = {
     "stiffest": lambda element: small(element, coefficient="where(x > 0.4 and y < 0.6, 1e12, 1)"),
     "soft": lambda element: small(element, coefficient="where(y < 0.3, 1e-6, 1)"),
     "pressed-flat": pressed,
+    "graded-side": lambda element: small(
+        element, ["left"], f=-8, g=0, dirichlet=-0.3, obstacle="where(x > 0.3, -9, -0.1*x)"
+    ),
     "constant": lambda element: small(
         element, dirichlet="1e12 + 0.1*x", obstacle="1e12 + 0.1*cos(6*x)"
     ),

@@ -1,1 +1,1 @@
-"""Errors of discrete solutions against a truth, their rates, and which of them are round-off alone."""
+"""Errors of discrete solutions, their rates, and which of them are round-off alone."""

@@ -11,11 +11,10 @@ and 6e-6 for the two without a singular point, smooth and biactive.
 import numpy as np
 
 from signorini.errors.graded import root, scaled_weight
-from signorini.errors.norms import GRADIENT
+from signorini.errors.norms import ALWAYS_NAMED, DOMAIN, GRADIENT
 from signorini.errors.pieces import Field, pieces
-from signorini.errors.reference import NORMS
 from signorini.exceptions import SceneError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 
 
 class ExactErrors:
@@ -36,15 +35,16 @@ class ExactErrors:
     --------
     >>> from signorini.exact import family
     >>> from signorini.mesh.grid import Grid
-    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", ("contact", "neumann", "dirichlet", "neumann"))
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
     >>> ExactErrors(family("patch"), ["l2"]).of(grid, "P1", 1.0 - grid.p[1])["l2"] < 1e-15
     True
     """
 
-    def __init__(self, exact, norms=NORMS):
-        unknown = [norm for norm in norms if norm not in _NEEDS]
+    def __init__(self, exact, norms=ALWAYS_NAMED):
+        unknown = [norm for norm in norms if norm not in DOMAIN]
         if unknown:
-            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(_NEEDS)}")
+            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
         self.exact = exact
         self.norms = tuple(norms)
 
@@ -54,7 +54,7 @@ class ExactErrors:
         Parameters
         ----------
         mesh : Grid or Triangulation
-        element : {"P1", "CR"}
+        element : {"P1", "CR"} or Element
         u : ndarray, shape (ndof,)
         coefficient : ndarray, shape (nt,), optional
             Diffusion coefficient of each triangle, 1 where not given: the weight of the energy
@@ -63,8 +63,8 @@ class ExactErrors:
         Returns
         -------
         dict
-            The value of each of `NORMS`, or None for those that nothing asked for needs, as in
-            `ReferenceErrors.of`; and of ``"energy"`` if asked for.
+            The value of each of `norms.ALWAYS_NAMED`, or None for those that no norm asked for
+            needs, as in `ReferenceErrors.of`; and of ``"energy"`` if asked for.
 
         Raises
         ------
@@ -72,56 +72,56 @@ class ExactErrors:
             Where the exact solution or its gradient is not finite.
         """
         values = find_element(element).vertex_values(mesh, u)
-        asked = set(self.norms)
-        slopes = mesh.gradients(values) if asked & set(GRADIENT) else None
-        weight, exponent = (None, 0) if coefficient is None else scaled_weight(coefficient)
-        weight = weight if "energy" in asked else None
+        wanted = set(self.norms)
+        slopes = mesh.gradients(values) if wanted & set(GRADIENT) else None
+        weight, exponent = None, 0
+        if "energy" in wanted and coefficient is not None:
+            weight, exponent = scaled_weight(coefficient)
+        squares = self._squares(mesh, Field(values, slopes, weight))
+        needed = {norm for norm, users in _NEEDED_FOR.items() if wanted & users}
+        norms = {
+            norm: root(squares[norm]) if norm in needed else None
+            for norm in dict.fromkeys((*ALWAYS_NAMED, *self.norms))
+        }
+        if "energy" in wanted:
+            norms["energy"] = float(np.ldexp(norms["energy"], exponent))
+        return norms
+
+    def _squares(self, mesh, field):
+        """The squares over all pieces that add up to each norm, as `graded.square` gives them."""
+        with_value = not {"l2", "h1"}.isdisjoint(self.norms)
         l2, semi, energy = [], [], []
-        for piece in pieces(mesh, Field(values, slopes, weight), self.exact.singular_points):
-            difference, *gradient = self._differences(piece, bool(asked & {"l2", "h1"}))
-            l2 += [piece.squared(part) for part in (difference,) if part is not None]
-            semi += [piece.squared(part) for part in gradient]
-            if weight is not None:
-                energy += [piece.squared_energy(part) for part in gradient]
-        squares = {
-            "l2": l2,
-            "h1_semi": semi,
-            "h1": l2 + semi,
-            "energy": semi if weight is None else energy,
-        }
-        known = {norm for norm, needs in _NEEDS.items() if asked & needs}
-        found = {
-            norm: root(squares[norm]) if norm in known else None
-            for norm in dict.fromkeys((*NORMS, *self.norms))
-        }
-        return found | {
-            norm: float(np.ldexp(found[norm], exponent))
-            for norm in ("energy",)
-            if norm in self.norms
-        }
+        for piece in pieces(mesh, field, self.exact.singular_points):
+            difference, *gradient = self._differences(piece, with_value)
+            if difference is not None:
+                l2.append(piece.squared(difference))
+            semi += [piece.squared(slope) for slope in gradient]
+            if field.weight is not None:
+                energy += [piece.squared_energy(slope) for slope in gradient]
+        if field.weight is None:
+            energy = semi
+        return {"l2": l2, "h1_semi": semi, "h1": l2 + semi, "energy": energy}
 
     def _differences(self, piece, with_value):
-        """u - u_h, or None, and its derivatives if there are any to compare; one evaluation of u
-        serves all.
+        """u - u_h, or None, and its derivatives if there are any to compare.
+
+        One evaluation of u serves all.
         """
         u, *slopes = piece.field
+        place = piece.x, piece.y
         if not slopes:
-            return [self.exact.value(piece.x, piece.y) - u if with_value else None]
+            return [self.exact.value(*place) - u if with_value else None]
         if not with_value:
-            return [
-                None,
-                *(
-                    a - b
-                    for a, b in zip(self.exact.gradient(piece.x, piece.y), slopes, strict=True)
-                ),
-            ]
-        return [
-            a - b
-            for a, b in zip(
-                self.exact.value_and_gradient(piece.x, piece.y), piece.field, strict=True
-            )
-        ]
+            exact = self.exact.gradient(*place)
+            return [None, *(a - b for a, b in zip(exact, slopes, strict=True))]
+        exact = self.exact.value_and_gradient(*place)
+        return [a - b for a, b in zip(exact, piece.field, strict=True)]
 
 
-# What each norm is computed for.
-_NEEDS = {"l2": {"l2", "h1"}, "h1_semi": {"h1_semi", "h1"}, "h1": {"h1"}, "energy": {"energy"}}
+# The norms that each is computed for.
+_NEEDED_FOR = {
+    "l2": {"l2", "h1"},
+    "h1_semi": {"h1_semi", "h1"},
+    "h1": {"h1"},
+    "energy": {"energy"},
+}

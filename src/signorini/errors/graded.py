@@ -1,10 +1,10 @@
-"""Quadrature on many simplices, graded towards singular points, with sums of squares that do not
-under- or overflow.
+"""Quadrature on many simplices, graded towards singular points.
 
-A simplex is a segment (k = 2) or a triangle (k = 3). One that lies near a singular point, within
-`NEAR` of its longest edge, is cut into halves or quarters again and again, as long as its parts lie
-near and at most `DEPTH` times. Quarters of a needle, a triangle longer than `SHAPELY` of its
-heights, would be needles: it is cut as in `errors.needles`.
+Sums of squares neither under- nor overflow. A simplex is a segment (k = 2) or a triangle (k = 3).
+One that lies near a singular point, within `NEAR` of its longest edge, is cut into halves or
+quarters again and again, as long as its parts lie near and at most `DEPTH` times. Quarters of a
+needle, a triangle longer than `SHAPELY` of its heights, would be needles: it is cut as in
+`errors.needles`.
 """
 
 import math
@@ -23,7 +23,24 @@ PARTS = {2: np.array([[[1.0, 0.0], [0.5, 0.5]], [[0.5, 0.5], [0.0, 1.0]]]), 3: P
 
 
 def times_to_cut(count, fewest, corners):
-    """How often `count` simplices of so many corners are to be cut, to become at least `fewest`."""
+    """How often simplices are to be cut, to become at least so many.
+
+    Parameters
+    ----------
+    count, fewest : int
+        How many there are, and the fewest there are to be.
+    corners : {2, 3}
+        Of each: segments are cut into halves, triangles into quarters.
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> times_to_cut(128, 1000, corners=3)
+    2
+    """
     return max(0, math.ceil(math.log(fewest / max(count, 1), len(PARTS[corners]))))
 
 
@@ -51,28 +68,27 @@ def graded(corners, singular_points, rule, least=0):
     weights : ndarray, shape (q,) or (j, q)
     """
     points, weights = rule
-    near = (
-        near_singular(corners, singular_points)
-        if least == 0
-        else np.ones(corners.shape[2], dtype=bool)
-    )
+    near = np.ones(corners.shape[2], dtype=bool)
+    if least == 0:
+        near = near_singular(corners, singular_points)
     if not near.all():
         far = np.flatnonzero(~near)
         yield far, points[:, None, :], np.ones(far.size), weights
     needle = near.copy()
     needle[near] = corners.shape[1] == 3 and is_needle(corners[:, :, near], SHAPELY)
     thin = np.flatnonzero(needle)
-    for found, *part in needle_parts(corners[:, :, thin], singular_points, NEAR, DEPTH, least):
-        yield thin[found], *part
-    for found, cells, share in _cut(
-        corners, singular_points, np.flatnonzero(near & ~needle), least
-    ):
-        yield found, np.einsum("mvk,vq->kmq", cells, points), np.full(found.size, share), weights
+    for which, *part in needle_parts(corners[:, :, thin], singular_points, NEAR, DEPTH, least):
+        yield thin[which], *part
+    shapely = np.flatnonzero(near & ~needle)
+    for which, parts, share in _cut(corners, singular_points, shapely, least):
+        at = np.einsum("mvk,vq->kmq", parts, points)
+        yield which, at, np.full(which.size, share), weights
 
 
 def _cut(corners, singular_points, simplices, least):
-    """Yield (simplices, barycentric corners (j, k, k), share) of the parts that are cut no more, by
-    their size.
+    """Yield the parts that are cut no more, the larger first.
+
+    As numbers of simplices (j,), barycentric corners (j, k, k), and their share in the simplex.
     """
     parts, share = PARTS[corners.shape[1]], 1.0
     cells = np.broadcast_to(np.eye(corners.shape[1]), (simplices.size, *parts.shape[1:]))
@@ -83,17 +99,25 @@ def _cut(corners, singular_points, simplices, least):
         simplices, share = np.tile(simplices, len(parts)), share / len(parts)
         if depth < least:
             continue
-        near = near_singular(
-            np.einsum("dkm,mvk->dvm", corners[:, :, simplices], cells), singular_points
-        )
+        place = np.einsum("dkm,mvk->dvm", corners[:, :, simplices], cells)
+        near = near_singular(place, singular_points)
         near &= depth < least + DEPTH
         yield simplices[~near], cells[~near], share
         simplices, cells = simplices[near], cells[near]
 
 
 def near_singular(corners, singular_points):
-    """Whether a singular point lies within `NEAR` longest edges of the centroid of each simplex (2,
-    k, m).
+    """Whether a singular point lies near simplices.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (2, k, m)
+    singular_points : sequence of (float, float)
+
+    Returns
+    -------
+    ndarray of bool, shape (m,)
+        Whether one lies within `NEAR` longest edges of the centroid.
     """
     near = np.zeros(corners.shape[2], dtype=bool)
     if not len(singular_points):
@@ -106,10 +130,20 @@ def near_singular(corners, singular_points):
 
 
 def square(values, outer, inner):
-    """Weighted sum of squares as (mantissa, exponent): the sum is mantissa times 4**exponent.
+    """Weighted sum of squares that neither under- nor overflows.
 
-    `values` are (a, b); weights are products of those in `outer`, (a,), and in `inner`, (b,), (a,
-    b) or a number.
+    Parameters
+    ----------
+    values : ndarray, shape (a, b)
+    outer : ndarray, shape (a,)
+    inner : ndarray, shape (b,) or (a, b), or float
+        The weights are the products of `outer` and `inner`.
+
+    Returns
+    -------
+    mantissa : float
+    exponent : int
+        The sum is mantissa times 4**exponent.
     """
     with np.errstate(over="ignore", under="ignore"):
         plain = _sum_of_squares(values, outer, inner)
@@ -129,8 +163,13 @@ def _sum_of_squares(values, outer, inner):
 
 
 def scaled_weight(values):
-    """Positive weights of squares over a power of four near the largest, and half its exponent:
-    that of the root.
+    """Scale positive weights of squares by a power of four, so that the largest is near one.
+
+    Returns
+    -------
+    scaled : ndarray
+    half : int
+        ``values`` are ``scaled`` times 4**half, and roots of sums are to be multiplied by 2**half.
     """
     half = int(np.frexp(np.max(values))[1]) // 2
     return np.ldexp(values, -2 * half), half

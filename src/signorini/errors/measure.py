@@ -1,20 +1,23 @@
 """From stored solutions to the rows of errors.csv."""
 
 from signorini.errors.norms import CONTACT, REFERENCE
-from signorini.errors.round_off import RoundOff, norm_floors, round_off_alone
+from signorini.errors.round_off import RoundOff, round_off_alone, round_off_bounds
 from signorini.exceptions import SceneError
 from signorini.fem.coefficient import coefficient_on
 from signorini.fem.data import read_coefficient
 
 
 def against_reference(truth, domain, norms, quadrature, coefficient=1):
-    """A function from a `StoredSolution` to its errors against another one.
+    """A function from a `StoredSolution` to its errors against a reference.
 
     Parameters
     ----------
     truth : StoredSolution
+        The reference.
     domain : Rectangle or Refined
+        Makes the mesh of each level.
     norms : sequence of str
+        Of `norms.DOMAIN`.
     quadrature : str
         See `ReferenceErrors`.
     coefficient : object, optional
@@ -31,31 +34,42 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     mesh, coefficient = domain.level(truth.n), read_coefficient(coefficient)
     weight, rounding = _weight(mesh, coefficient, norms), RoundOff.of(truth)
     errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
-    noise = norm_floors(mesh, rounding, norms, weight)
+    noise = round_off_bounds(mesh, rounding, norms, weight)
 
-    def of(found):
-        mesh = domain.level(found.n)
-        both = rounding.together_with(RoundOff.of(found))
-        floors = norm_floors(mesh, both, norms, _weight(mesh, coefficient, norms))
+    def errors_of(solution):
+        mesh = domain.level(solution.n)
+        both = rounding.together_with(RoundOff.of(solution))
+        bounds = round_off_bounds(mesh, both, norms, _weight(mesh, coefficient, norms))
 
         def unresolved(doubtful):
             parts = errors.unresolved(mesh, doubtful)
             return {norm: part if part > noise[norm] else 0.0 for norm, part in parts.items()}
 
-        result = errors.of(mesh, found.element, found.u)
-        if (found.element, found.n) == (truth.element, truth.n):
+        result = errors.of(mesh, solution.element, solution.u)
+        if (solution.element, solution.n) == (truth.element, truth.n):
             return result | {"floor": REFERENCE}
-        return _with_floor(result, floors, unresolved)
+        return _with_round_off(result, bounds, unresolved)
 
-    return of
+    return errors_of
 
 
 def against_exact(statement, domain, norms):
-    """The same against the exact truth of a `ProblemStatement`, with the errors on the contact
-    part.
+    """The same against an exact truth, with the errors on the contact part.
 
-    The function raises `SceneError` where critical points are asked for and none of the exact ones
-    lies there.
+    Parameters
+    ----------
+    statement : ProblemStatement
+        Has the exact solution, and the coefficient that is the weight of the energy norm.
+    domain : Rectangle or Refined
+        Makes the mesh of each level.
+    norms : sequence of str
+        Of `norms.RATED`.
+
+    Returns
+    -------
+    callable
+        From a `StoredSolution` to a dict as in `against_reference`. It raises `SceneError` where
+        critical points are asked for and none of the exact ones lies on the contact part.
     """
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
@@ -65,48 +79,73 @@ def against_exact(statement, domain, norms):
     errors = ExactErrors(exact, [norm for norm in norms if norm not in CONTACT])
     on_contact = [norm for norm in norms if norm in CONTACT]
 
-    def of(found):
-        mesh = domain.level(found.n)
+    def errors_of(solution):
+        mesh = domain.level(solution.n)
         weight = _weight(mesh, coefficient, norms)
-        result = errors.of(mesh, found.element, found.u, weight)
+        result = errors.of(mesh, solution.element, solution.u, weight)
         if on_contact:
-            contact = contact_errors(mesh, found.element, found, exact)
+            contact = contact_errors(mesh, solution.element, solution, exact)
             _check_critical_points(on_contact, contact, exact)
             result |= {norm: contact[norm] for norm in on_contact}
-        floors = norm_floors(mesh, RoundOff.of(found), norms, weight)
-        return _with_floor(
-            result, floors, lambda doubtful: unresolved(mesh, exact, doubtful, weight)
+        bounds = round_off_bounds(mesh, RoundOff.of(solution), norms, weight)
+        return _with_round_off(
+            result, bounds, lambda doubtful: unresolved(mesh, exact, doubtful, weight)
         )
 
-    return of
+    return errors_of
 
 
 def _check_critical_points(norms, errors, exact):
     if "critical_points" in norms and errors["critical_points"] is None:
         named = ", ".join(f"({x:g}, {y:g})" for x, y in exact.critical_points)
         raise SceneError(
-            f"norms: critical_points needs exact ones on the contact part, but {named} lie off it; mend "
-            "truth.critical_points or the family's parameters, or drop critical_points from norms"
+            f"norms: critical_points needs exact ones on the contact part, but {named} lie off it; "
+            "mend truth.critical_points or the family's parameters, "
+            "or drop critical_points from norms"
         )
 
 
 def _weight(mesh, coefficient, norms):
     """The diffusion coefficient, where a norm depends on it."""
-    return coefficient_on(mesh, coefficient) if {"energy", "multiplier_l2"} & set(norms) else None
+    if {"energy", "multiplier_l2"}.isdisjoint(norms):
+        return None
+    return coefficient_on(mesh, coefficient)
 
 
-def _with_floor(errors, floors, unresolved):
-    return errors | {"floor": " ".join(round_off_alone(errors, floors, unresolved))}
+def _with_round_off(errors, bounds, unresolved):
+    """The errors, and in the column ``floor`` the norms in which they are round-off alone."""
+    return errors | {"floor": " ".join(round_off_alone(errors, bounds, unresolved))}
 
 
-def row(found, errors):
-    """The row of a stored solution: what it is, its errors, and how it was found."""
-    what = {"element": found.element, "n": found.n, "h": found.h, "dofs": found.dofs}
-    proof = {
-        "residual": found.residual,
-        "accuracy": found.accuracy,
-        "multiplier_accuracy": found.multiplier_accuracy,
-        "undecided": int(found.undecided.sum()),
+def row(solution, errors):
+    """The row of errors.csv for a stored solution.
+
+    Parameters
+    ----------
+    solution : StoredSolution
+    errors : callable
+        From it to a dict, as `against_reference` and `against_exact` make them.
+
+    Returns
+    -------
+    dict
+        What it is, its errors, what they rest on, and how it was computed.
+    """
+    what = {
+        "element": solution.element,
+        "n": solution.n,
+        "h": solution.h,
+        "dofs": solution.dofs,
     }
-    how = {"status": found.status, "iterations": found.iterations, "method": found.method}
-    return what | errors(found) | proof | how
+    proof = {
+        "residual": solution.residual,
+        "accuracy": solution.accuracy,
+        "multiplier_accuracy": solution.multiplier_accuracy,
+        "undecided": int(solution.undecided.sum()),
+    }
+    how = {
+        "status": solution.status,
+        "iterations": solution.iterations,
+        "method": solution.method,
+    }
+    return what | errors(solution) | proof | how

@@ -15,10 +15,8 @@ import numpy as np
 
 from signorini.fem.quadrature import interval_rule
 
-_ALONG, _ACROSS = (
-    interval_rule(7),
-    interval_rule(5),
-)  # the area of a box shrinks towards the tip: one degree more
+# The area of a box shrinks towards the tip: one degree more is needed along it.
+_ALONG, _ACROSS = interval_rule(7), interval_rule(5)
 _RESOLUTION = 2.0**-48  # of coordinates: shorter boxes are round-off
 
 
@@ -45,15 +43,27 @@ class Right(NamedTuple):
 
 
 def squared_edges(corners):
-    """Squared lengths of the edges that end at each corner and start at the one before, (k, m), of
-    (2, k, m).
+    """Squared lengths of the edges of simplices, (k, m), of corners (2, k, m).
+
+    The edge that ends at a corner starts at the one before.
     """
     edges = corners - np.roll(corners, 1, axis=1)
     return (edges * edges).sum(axis=0)
 
 
 def is_needle(corners, aspect):
-    """Whether triangles (2, 3, m) are longer than `aspect` of their heights, (m,) of bool."""
+    """Whether triangles are longer than so many of their heights.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (2, 3, m)
+    aspect : float
+        Longest edge over the height on it.
+
+    Returns
+    -------
+    ndarray of bool, shape (m,)
+    """
     (ax, ay), (bx, by) = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return squared_edges(corners).max(axis=0) > aspect * np.abs(ax * by - ay * bx)
 
@@ -79,13 +89,14 @@ def needle_parts(corners, singular_points, near, depth, least=0):
         As from `graded.graded`; the weights are of shape (j, q).
     """
     right = _right_triangles(corners)
-    extent = np.abs(corners).max(axis=(0, 1))[right.triangles]
+    extent = np.abs(corners).max(axis=(0, 1))[right.triangles]  # what coordinates round to
     shortest = np.maximum(2.0**-depth * right.short, _RESOLUTION * extent)
     which = np.arange(right.shares.size)
     boxes = np.tile([[0.0], [1.0], [0.0], [1.0]], which.size)
     while which.size:
-        (s, s_end, t, t_end), long, short = boxes, right.long[which], right.short[which]
-        along, across = (s_end - s) * long, (t_end - t) * (1.0 - s) * short
+        s, s_end, t, t_end = boxes
+        along = (s_end - s) * right.long[which]
+        across = (t_end - t) * (1.0 - s) * right.short[which]
         size = np.maximum(along, across)
         cut = _distance(corners, right, which, boxes, singular_points) <= near * size
         cut &= size > shortest[which]
@@ -96,6 +107,15 @@ def needle_parts(corners, singular_points, near, depth, least=0):
 
 
 def _right_triangles(corners):
+    r"""Both right triangles of each needle, cut by its height on the longest edge::
+
+                    top
+                /    |       \
+          start ---- foot ----------- end
+
+    In each, the shorter of the two legs at the foot F is the base FB; its other end is B, and the
+    tip T is the end of the longer leg.
+    """
     m = np.arange(corners.shape[2])
     squares = squared_edges(corners)
     last = squares.argmax(axis=0)
@@ -107,32 +127,32 @@ def _right_triangles(corners):
     height = np.abs(across[0] * (top - start)[1] - across[1] * (top - start)[0])
     unit = np.eye(3)
     foot = (1.0 - share)[:, None] * unit[first] + share[:, None] * unit[last]
-    found = []
+    halves = []
     for part, side in ((share, unit[first]), (1.0 - share, unit[last])):
-        leg, flat = part * length, part * length >= height
+        leg = part * length
         ends = np.stack([side, unit[opposite]])
-        base, tip = np.where(flat[:, None], ends[::-1], ends)
-        found.append(
-            (
-                m,
-                np.stack([foot, base, tip], axis=1),
-                part,
-                np.maximum(leg, height),
-                np.minimum(leg, height),
-            )
+        base, tip = np.where((leg >= height)[:, None], ends[::-1], ends)
+        half = Right(
+            triangles=m,
+            corners=np.stack([foot, base, tip], axis=1),
+            shares=part,
+            long=np.maximum(leg, height),
+            short=np.minimum(leg, height),
         )
-    whole = [np.concatenate(parts) for parts in zip(*found, strict=True)]
-    return Right(*(part[whole[2] > 0.0] for part in whole))
+        halves.append(half)
+    both = Right(*(np.concatenate(parts) for parts in zip(*halves, strict=True)))
+    return Right(*(part[both.shares > 0.0] for part in both))
 
 
 def _distance(corners, right, which, boxes, singular_points):
-    """From the centre of each box to the nearest singular point."""
+    """From the centre of each box to the nearest singular point, infinite if there is none."""
     s, t = 0.5 * (boxes[0] + boxes[1]), 0.5 * (boxes[2] + boxes[3])
-    place = np.einsum(
-        "dkm,mk->dm", corners[:, :, right.triangles[which]], _barycentric(right, which, s, t)
-    )
-    apart = [np.hypot(place[0] - x, place[1] - y) for x, y in singular_points]
-    return np.min(apart, axis=0, initial=np.inf) if apart else np.full(which.size, np.inf)
+    barycentric = _barycentric(right, which, s, t)
+    place = np.einsum("dkm,mk->dm", corners[:, :, right.triangles[which]], barycentric)
+    distance = np.full(which.size, np.inf)
+    for x, y in singular_points:
+        distance = np.minimum(distance, np.hypot(place[0] - x, place[1] - y))
+    return distance
 
 
 def _barycentric(right, which, s, t):
@@ -151,9 +171,15 @@ def _halves(boxes, along):
 
 
 def _points(right, which, boxes):
-    (s, ws), (t, wt) = _ALONG, _ACROSS
+    """The product rule on boxes, as `needle_parts` yields it.
+
+    The map from (s, t) to the right triangle has the Jacobian 2 (1 - s) times the area.
+    """
+    (unit_s, weights_s), (unit_t, weights_t) = _ALONG, _ACROSS
     start, end, low, high = boxes[:, :, None]
-    s, t = start + (end - start) * np.repeat(s, t.size), low + (high - low) * np.tile(t, s.size)
+    s = start + (end - start) * np.repeat(unit_s, unit_t.size)
+    t = low + (high - low) * np.tile(unit_t, unit_s.size)
     points = np.moveaxis(_barycentric(right, which, s, t), -1, 0)
     shares = right.shares[which] * ((end - start) * (high - low))[:, 0]
-    return right.triangles[which], points, shares, 2.0 * (1.0 - s) * np.outer(ws, wt).ravel()
+    weights = 2.0 * (1.0 - s) * np.outer(weights_s, weights_t).ravel()
+    return right.triangles[which], points, shares, weights

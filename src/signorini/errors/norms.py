@@ -1,8 +1,94 @@
-"""The names of the norms in which errors are measured."""
+"""The norms in which errors are measured: their names, and what figures and tables call them.
+
+Nothing here imports NumPy.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Norm:
+    """What a norm is called.
+
+    Parameters
+    ----------
+    heading : str
+        Over a column of a table in LaTeX.
+    text : str
+        In plain text and in Markdown.
+    macro : str
+        In the name of a LaTeX macro, which takes letters only.
+    axis : str
+        At the axis of a figure.
+    symbol : str
+        Where there is little room.
+    """
+
+    heading: str
+    text: str
+    macro: str
+    axis: str
+    symbol: str
+
+
+NORMS = {
+    "l2": Norm(
+        heading="$L^2$ error",
+        text="L2",
+        macro="Ltwo",
+        axis="$L^2$ error",
+        symbol="$L^2$",
+    ),
+    "h1": Norm(
+        heading="$H^1$ error",
+        text="H1",
+        macro="Hone",
+        axis="$H^1$ error",
+        symbol="$H^1$",
+    ),
+    "h1_semi": Norm(
+        heading="broken $H^1$ seminorm",
+        text="H1 seminorm",
+        macro="Semi",
+        axis="broken $H^1$ seminorm of the error",
+        symbol="$H^1$ seminorm",
+    ),
+    "energy": Norm(
+        heading="energy norm",
+        text="energy",
+        macro="Energy",
+        axis="error in the energy norm",
+        symbol="energy",
+    ),
+    "trace_l2": Norm(
+        heading="$L^2$ error of the trace",
+        text="trace L2",
+        macro="Trace",
+        axis=r"$L^2(\Gamma_C)$ error of $u$",
+        symbol="trace",
+    ),
+    "multiplier_l2": Norm(
+        heading="$L^2$ error of the multiplier",
+        text="multiplier L2",
+        macro="Multiplier",
+        axis=r"$L^2(\Gamma_C)$ error of $k\,\mathrm{d}u/\mathrm{d}\nu$",
+        symbol="multiplier",
+    ),
+    "critical_points": Norm(
+        heading="critical points",
+        text="critical points",
+        macro="Critical",
+        axis="distance of the critical points",
+        symbol="critical points",
+    ),
+}
 
 GRADIENT = ("h1_semi", "h1", "energy")  # that need the gradient
 DOMAIN = ("l2", *GRADIENT)
 CONTACT = ("trace_l2", "multiplier_l2", "critical_points")  # on the contact part
 RATED = (*DOMAIN, *CONTACT)  # those whose slope is taken: all
+
+# Those that every row of errors has a column for, empty where they are not computed.
+ALWAYS_NAMED = ("l2", "h1_semi", "h1")
 
 REFERENCE = "reference"  # in the column floor: the solution is the reference itself

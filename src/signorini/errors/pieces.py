@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.errors.graded import NEAR, PARTS, graded, near_singular, square, times_to_cut
 from signorini.errors.projection import prolong
 from signorini.fem.grid_lines import points_on_lines, weighted
@@ -49,8 +49,9 @@ class Field(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """Points, in arrays whose first axes run over the `outer` weights, and the others over the
-    `inner` ones.
+    """Quadrature points of a part of a mesh, and what is known at them.
+
+    The first axes of the arrays run over the `outer` weights, the others over the `inner` ones.
 
     Attributes
     ----------
@@ -89,6 +90,10 @@ def pieces(mesh, field, singular_points):
     mesh : Grid or Triangulation
     field : Field
     singular_points : sequence of (float, float)
+
+    Yields
+    ------
+    Piece
     """
     if not isinstance(mesh, Grid):
         yield from _triangles(mesh.p, mesh.t, mesh.area, field, singular_points)
@@ -96,31 +101,38 @@ def pieces(mesh, field, singular_points):
     grid, field = _fine(mesh, field)
     near = _near_rows(grid, singular_points)
     if near.any():
-        cells = (np.flatnonzero(near)[:, None] * grid.nx + np.arange(grid.nx)).ravel()
-        numbers = np.concatenate([cells, grid.nx * grid.ny + cells])
-        part = Field(*(None if values is None else values[..., numbers] for values in field))
-        vertices, t = np.unique(grid.triangles(numbers).t, return_inverse=True)
-        areas = np.full(numbers.size, grid.area)
-        yield from _triangles(
-            grid.points(vertices), t.reshape(3, -1), areas, part, singular_points, 0
-        )
-    bounds = np.flatnonzero(np.diff(near, prepend=True, append=True))
+        yield from _near_triangles(grid, near, field, singular_points)
+    bounds = np.flatnonzero(np.diff(near, prepend=True, append=True))  # of the rows between
     for first, last in bounds.reshape(-1, 2):
         for kind, corners in enumerate(grid.corners):
             yield from _rows(grid, kind, corners, field, first, last)
+
+
+def _near_triangles(grid, near, field, singular_points):
+    """The rows of cells that are marked, as triangles whose points have coordinates each."""
+    cells = (np.flatnonzero(near)[:, None] * grid.nx + np.arange(grid.nx)).ravel()
+    numbers = np.concatenate([cells, grid.nx * grid.ny + cells])
+    part = _restricted(field, numbers)
+    vertices, t = np.unique(grid.triangles(numbers).t, return_inverse=True)
+    p, areas = grid.points(vertices), np.full(numbers.size, grid.area)
+    yield from _triangles(p, t.reshape(3, -1), areas, part, singular_points, times=0)
+
+
+def _restricted(field, triangles):
+    """A field on some of its triangles."""
+    return Field(*(None if part is None else part[..., triangles] for part in field))
 
 
 def _fine(grid, field):
     """The same function on a grid with triangles enough."""
     while grid.number_of_triangles < FEWEST_TRIANGLES:
         grid = replace(grid, nx=2 * grid.nx, ny=2 * grid.ny)
-        field = Field(
-            prolong(grid, field.values),
-            None
-            if field.slopes is None
-            else np.stack([_spread(grid, slope) for slope in field.slopes]),
-            None if field.weight is None else _spread(grid, field.weight),
-        )
+        values, slopes, weight = field
+        if slopes is not None:
+            slopes = np.stack([_spread(grid, slope) for slope in slopes])
+        if weight is not None:
+            weight = _spread(grid, weight)
+        field = Field(prolong(grid, values), slopes, weight)
     return grid, field
 
 
@@ -143,16 +155,18 @@ def _near_rows(grid, singular_points):
 def _rows(grid, kind, corners, field, first, last):
     """Triangles of one kind in some rows of cells: (lines, points, rows, columns)."""
     points, weights = RADON
+    # Triangles are numbered by kind, then row, then column.
     values, slopes, weight = (
         None if part is None else part.reshape(-1, 2, grid.ny, grid.nx)[:, kind, first:last]
         for part in field
     )
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
         at_points = [np.tensordot(points[:, which], values[:, rows], axes=(0, 0))]
-        at_points += [] if slopes is None else list(slopes[:, rows])
+        if slopes is not None:
+            at_points += list(slopes[:, rows])
         outer = grid.area * weights[which.ravel()]
-        energy = outer, 1.0 if weight is None else weight[0, rows].ravel()
-        yield Piece(x, y, tuple(at_points), outer, 1.0, energy)
+        energy_inner = 1.0 if weight is None else weight[0, rows].ravel()
+        yield Piece(x, y, tuple(at_points), outer, 1.0, energy=(outer, energy_inner))
 
 
 def _triangles(p, t, area, field, singular_points, times=None):
@@ -161,12 +175,12 @@ def _triangles(p, t, area, field, singular_points, times=None):
         times = times_to_cut(area.size, FEWEST_TRIANGLES, corners=3)
     rule = _composite(times)
     near = np.zeros(area.size, dtype=bool)
-    for cells in blocks(area.size, max(1, CHUNK // rule[1].size)):
+    for cells in chunk_slices(area.size, max(1, CHUNK // rule[1].size)):
         corners = p[:, t[:, cells]]
         near[cells] = near_singular(corners, singular_points)
         yield _whole(corners, area, field, cells, ~near[cells], rule)
     near = np.flatnonzero(near)
-    for cells in blocks(near.size, max(1, CHUNK // rule[1].size)):
+    for cells in chunk_slices(near.size, max(1, CHUNK // rule[1].size)):
         yield from _parts(p, t, area, field, singular_points, times, near[cells])
 
 
@@ -174,10 +188,8 @@ def _composite(times):
     """Radon's rule on each part of a triangle that is cut into quarters so many times."""
     points, weights = RADON
     for _ in range(times):
-        points, weights = (
-            np.concatenate([part.T @ points for part in PARTS[3]], axis=1),
-            np.tile(weights / 4.0, 4),
-        )
+        points = np.concatenate([part.T @ points for part in PARTS[3]], axis=1)
+        weights = np.tile(weights / 4.0, 4)
     return points, weights
 
 
@@ -185,29 +197,31 @@ def _whole(corners, area, field, cells, kept, rule):
     """Those of a slice of the triangles that are kept."""
     points, weights = rule
     kept = slice(None) if kept.all() else kept
-    values, slopes, weight = (
-        None if part is None else part[..., cells][..., kept] for part in field
-    )
+    values, slopes, weight = _restricted(_restricted(field, cells), kept)
     x, y, u = (weighted(points.T, part) for part in (*corners[:, :, kept], values))
+    at_points = (u,) if slopes is None else (u, *slopes)
     inner = area[cells][kept]
-    energy = inner if weight is None else inner * weight
-    return Piece(x, y, (u, *(() if slopes is None else slopes)), weights, inner, (weights, energy))
+    energy_inner = inner if weight is None else inner * weight
+    return Piece(x, y, at_points, weights, inner, energy=(weights, energy_inner))
 
 
 def _parts(p, t, area, field, singular_points, times, numbers):
     """Parts of triangles given by their numbers."""
     corners = p[:, t[:, numbers]]
-    for found, at, shares, weights in graded(corners, singular_points, RADON, times):
-        triangles = numbers[found]
-        slopes = () if field.slopes is None else field.slopes[:, triangles, None]
+    for which, at, shares, weights in graded(corners, singular_points, RADON, times):
+        triangles = numbers[which]
+        x, y = _at(at, corners[:, :, which])
+        at_points = [_at(at, field.values[:, triangles])]
+        if field.slopes is not None:
+            at_points += list(field.slopes[:, triangles, None])
         outer = area[triangles] * shares
-        energy = outer if field.weight is None else outer * field.weight[triangles]
-        at_points = _at(at, field.values[:, triangles]), *slopes
-        yield Piece(*_at(at, corners[:, :, found]), at_points, outer, weights, (energy, weights))
+        energy_outer = outer if field.weight is None else outer * field.weight[triangles]
+        yield Piece(x, y, tuple(at_points), outer, weights, energy=(energy_outer, weights))
 
 
 def _at(points, values):
-    """An affine function, or several, by corner values (..., 3, m), at barycentric points (3, m or
-    1, q).
+    """An affine function, or several, at barycentric points (3, m, q) or (3, 1, q).
+
+    By its values at the corners, (..., 3, m); the result is (..., m, q).
     """
     return sum(values[..., i, :, None] * points[i] for i in range(3))

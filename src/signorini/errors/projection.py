@@ -1,5 +1,4 @@
-"""Piecewise affine functions on nested meshes: from a mesh to the one it was refined from, and
-back.
+"""Piecewise affine functions on nested meshes: to the coarser mesh and back.
 
 A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the
 vertices of each triangle. The children of a triangle are listed as `Grid.vertex_children` lists
@@ -15,21 +14,35 @@ PROLONG = np.stack(
     [0.5 * (np.eye(3) + np.eye(3)[k]) for k in range(3)] + [0.5 * (np.ones((3, 3)) - np.eye(3))]
 )
 
-_MASS = (
-    np.ones((3, 3)) + np.eye(3)
-) / 12.0  # of an affine function by its vertex values, on a triangle of area 1
+# Mass matrix of affine functions by their vertex values, on a triangle of area 1.
+_MASS = (np.ones((3, 3)) + np.eye(3)) / 12.0
 
 # L2 projection of four affine children onto one affine parent: inv(M) sum_k P_k' M / 4, (4, 3, 3).
 PROJECT = np.stack([np.linalg.solve(_MASS, P.T @ _MASS) / 4.0 for P in PROLONG])
 
 
 def prolong(mesh, values):
-    """A function on ``mesh.coarser()`` as one on `mesh`: (3, nt / 4) to (3, nt)."""
+    """A function on ``mesh.coarser()`` as one on `mesh`.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    values : ndarray, shape (3, nt / 4)
+
+    Returns
+    -------
+    ndarray, shape (3, nt)
+    """
     return mesh.from_vertex_children(np.stack([P @ values for P in PROLONG]))
 
 
 def project(mesh, values):
     """L2 projection of a function on `mesh` onto ``mesh.coarser()``.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    values : ndarray, shape (3, nt)
 
     Returns
     -------
@@ -46,6 +59,23 @@ def project(mesh, values):
 
 
 def squared_l2(areas, values):
-    """Squared L2 norm of a piecewise affine function by its vertex values (3, nt); exact."""
+    """Squared L2 norm of a piecewise affine function by its vertex values; exact.
+
+    Parameters
+    ----------
+    areas : ndarray, shape (nt,), or float
+        Areas of the triangles; one number where all are equal.
+    values : ndarray, shape (3, nt)
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> squared_l2(0.5, np.ones((3, 2)))
+    1.0
+    """
     density = (values * values).sum(axis=0) + values.sum(axis=0) ** 2
-    return float(areas @ density if np.ndim(areas) else areas * density.sum()) / 12.0
+    total = areas @ density if np.ndim(areas) else areas * density.sum()
+    return float(total) / 12.0

@@ -1,8 +1,7 @@
-"""Errors against a reference on a finer, nested mesh, integrated exactly; the reference is read
-once for all.
+"""Errors against a reference on a finer, nested mesh, integrated exactly.
 
-With Pi the L2 projection onto affine functions of a coarser mesh, Pythagoras gives for every u_h on
-it
+The reference is read once for all solutions. With Pi the L2 projection onto affine functions of a
+coarser mesh, Pythagoras gives for every u_h on it
 
     |u - u_h|^2 = |u - Pi u|^2 + |Pi u - u_h|^2,
 
@@ -18,13 +17,11 @@ from functools import cached_property
 import numpy as np
 
 from signorini.errors.graded import scaled_weight
-from signorini.errors.norms import DOMAIN
+from signorini.errors.norms import ALWAYS_NAMED, DOMAIN
 from signorini.errors.projection import project, prolong, squared_l2
 from signorini.exceptions import MeshError, SceneError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.quadrature import triangle_rule
-
-NORMS = ("l2", "h1_semi", "h1")
 
 
 class ReferenceErrors:
@@ -34,7 +31,7 @@ class ReferenceErrors:
     ----------
     mesh : Grid or Triangulation
         The reference's mesh.
-    element : {"P1", "CR"}
+    element : {"P1", "CR"} or Element
     u : ndarray, shape (ndof,)
     norms : sequence of str
         Of ``"l2"``, ``"h1_semi"``, ``"h1"``, ``"energy"``; what is not named is not computed.
@@ -50,7 +47,7 @@ class ReferenceErrors:
         If a norm is unknown.
     """
 
-    def __init__(self, mesh, element, u, norms=NORMS, quadrature="exact", coefficient=None):
+    def __init__(self, mesh, element, u, norms=ALWAYS_NAMED, quadrature="exact", coefficient=None):
         unknown = [norm for norm in norms if norm not in DOMAIN]
         if unknown:
             raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
@@ -60,9 +57,9 @@ class ReferenceErrors:
         # Powers of two near max |u|, of four near max k: squares do not under- or overflow, and no
         # digit changes.
         self.exponent = int(np.frexp(np.max(np.abs(u), initial=0.0))[1])
-        self.weight, self.weight_exponent = (
-            (None, 0) if coefficient is None else scaled_weight(coefficient)
-        )
+        self.weight, self.weight_exponent = None, 0
+        if coefficient is not None:
+            self.weight, self.weight_exponent = scaled_weight(coefficient)
         self.values = find_element(element).vertex_values(mesh, np.ldexp(u, -self.exponent))
 
     def of(self, mesh, element, u):
@@ -72,16 +69,16 @@ class ReferenceErrors:
         ----------
         mesh : Grid or Triangulation
             The reference's mesh or one that it was refined from, of equal numbering.
-        element : {"P1", "CR"}
+        element : {"P1", "CR"} or Element
         u : ndarray, shape (ndof,)
 
         Returns
         -------
         dict
-            The value of each of `NORMS`, or None for those that nothing asked for needs (h1 needs
-            the other two), and of ``"energy"`` if asked for. Units: l2 that of u times length,
-            h1_semi that of u, energy that of u times the root of the coefficient's; h1 adds the
-            squares of l2 and h1_semi as numbers.
+            The value of each of `norms.ALWAYS_NAMED`, or None for those that no norm asked for
+            needs (h1 needs the other two), and of ``"energy"`` if asked for. Units: l2 that of u
+            times length, h1_semi that of u, energy that of u times the root of the coefficient's;
+            h1 adds the squares of l2 and h1_semi as numbers.
 
         Raises
         ------
@@ -100,24 +97,40 @@ class ReferenceErrors:
             squares["energy"] = self._squared_energy(mesh, values)
         return {
             norm: self._root(norm, squares[norm]) if norm in squares else None
-            for norm in dict.fromkeys((*NORMS, *self.norms))
+            for norm in dict.fromkeys((*ALWAYS_NAMED, *self.norms))
         }
 
     def unresolved(self, mesh, norms):
-        """Norms of what no function that is affine on each triangle of `mesh` has of the reference:
-        norm -> value.
+        """Norms of what no function that is affine on each triangle of a mesh has of the reference.
 
-        A part of every error that `of` finds on this mesh, if integrated exactly.
+        It is a part of every error that `of` measures on this mesh, if integrated exactly.
+
+        Parameters
+        ----------
+        mesh : Grid or Triangulation
+            As in `of`.
+        norms : sequence of str
+            Of `norms.DOMAIN`.
+
+        Returns
+        -------
+        dict
+            Norm -> value, unit as in `of`.
         """
-        rest = {
-            "l2": lambda: self._at(self._affine, mesh)[1],
-            "h1_semi": lambda: self._at(self._constant, mesh)[1],
-            "h1": lambda: self._at(self._affine, mesh)[1] + self._at(self._constant, mesh)[1],
-            "energy": lambda: self._at(
-                self._constant if self.weight is None else self._weighted, mesh
-            )[1],
-        }
-        return {norm: self._root(norm, rest[norm]()) for norm in norms}
+        return {norm: self._root(norm, self._lost(norm, mesh)) for norm in norms}
+
+    def _lost(self, norm, mesh):
+        """The square of what projections down to `mesh` have lost of the reference."""
+        if norm == "h1":
+            return self._lost("l2", mesh) + self._lost("h1_semi", mesh)
+        if norm == "l2":
+            projections = self._affine
+        elif norm == "energy" and self.weight is not None:
+            projections = self._weighted
+        else:
+            projections = self._constant
+        _, lost = self._at(projections, mesh)
+        return lost
 
     def _root(self, norm, square):
         exponent = self.exponent + (self.weight_exponent if norm == "energy" else 0)
@@ -136,12 +149,14 @@ class ReferenceErrors:
     def _squared_energy(self, mesh, values):
         if self.weight is None:
             return self._squared_semi(mesh, values)
-        found, rest = self._at(self._weighted, mesh)
-        return rest + _squared_constant(mesh.area * found[2], found[:2] - mesh.gradients(values))
+        projection, rest = self._at(self._weighted, mesh)
+        mean, weight = projection[:2], projection[2]
+        return rest + _squared_constant(mesh.area * weight, mean - mesh.gradients(values))
 
-    def _at(self, pyramid, mesh):
-        _, *found = pyramid[len(self._finer_than(mesh))]
-        return found
+    def _at(self, projections, mesh):
+        """The projection on one of the meshes, and the squared norm of what it has lost."""
+        _, projection, lost = projections[len(self._finer_than(mesh))]
+        return projection, lost
 
     def _finer_than(self, mesh):
         """The meshes from the reference's down to the one that was refined from `mesh`."""
@@ -152,14 +167,16 @@ class ReferenceErrors:
             if level is None:
                 raise MeshError(
                     f"mesh: {mesh.number_of_triangles} triangles do not nest in the reference's "
-                    f"{self.mesh.number_of_triangles}; the reference's n must be a power of two times n"
+                    f"{self.mesh.number_of_triangles}; "
+                    "the reference's n must be a power of two times n"
                 )
         return finer
 
     @cached_property
     def _affine(self):
-        """Per mesh, finest first: (mesh, projection of u, squared L2 norm of what the projection
-        lost).
+        """For each mesh, finest first: the mesh, the projection of u, and what it has lost.
+
+        That is the square of the L2 norm of the difference.
         """
         return list(_descend(self.mesh, self.values, project))
 
@@ -171,39 +188,36 @@ class ReferenceErrors:
     @cached_property
     def _weighted(self):
         """The same for the gradient under the coefficient, which is the third row."""
-        return list(
-            _descend(
-                self.mesh,
-                np.stack([*self.mesh.gradients(self.values), self.weight]),
-                _weighted_mean,
-            )
-        )
+        slopes_and_weight = np.stack([*self.mesh.gradients(self.values), self.weight])
+        return list(_descend(self.mesh, slopes_and_weight, _weighted_mean))
 
     def _squared_by_rule(self, mesh, values):
         for finer in reversed(self._finer_than(mesh)):
             values = prolong(finer, values)
         points, weights = triangle_rule(self.quadrature)
         difference = self.values - values
-        density = sum(
+        squares = (
             w * (point @ difference) ** 2 for point, w in zip(points.T, weights, strict=True)
         )
-        return float(np.sum(self.mesh.area * density))
+        return float(np.sum(self.mesh.area * sum(squares)))
 
 
-def _descend(mesh, values, reduce):
-    total = 0.0
+def _descend(mesh, values, coarsen):
+    """Yield each mesh down to the coarsest, the values on it, and what `coarsen` has lost."""
+    lost = 0.0
     while mesh is not None:
-        yield mesh, values, total
+        yield mesh, values, lost
         coarser = mesh.coarser()
         if coarser is not None:
-            values, rest = reduce(mesh, values)
-            total += rest
+            values, rest = coarsen(mesh, values)
+            lost += rest
         mesh = coarser
 
 
 def _mean(mesh, values):
-    """Mean over the children of a piecewise constant field (2, nt), and the squared L2 norm of the
-    difference.
+    """Mean over the children of a piecewise constant field (2, nt).
+
+    And the squared L2 norm of the difference.
     """
     family = mesh.children(values)
     mean = family.mean(axis=0)
@@ -212,8 +226,9 @@ def _mean(mesh, values):
 
 
 def _weighted_mean(mesh, values):
-    """The same for a field under a weight, its third row: the weighted mean, and the mean of the
-    weights.
+    """The same for a field under a weight, which is its third row.
+
+    Means are weighted, and the third row of the result is the mean of the weights.
     """
     family = mesh.children(values)
     slopes, weights = family[:, :2], family[:, 2:]

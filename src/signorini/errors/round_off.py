@@ -1,19 +1,20 @@
-"""The round-off in the norms of an error: an error that is round-off alone says nothing of the
-discretisation.
+"""The round-off in the norms of an error.
+
+An error that is round-off alone says nothing of the discretisation.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.mesh.boundary_trace import find_boundary_trace as find_side
+from signorini.mesh.boundary_trace import find_boundary_trace
 from signorini.mesh.grid import Grid
 
 _EPS = float(np.finfo(float).eps)
 
-# An accuracy is an estimate, down to a tenth of the error; on the contact patch test, where all
-# errors are round-off, none exceeds its floor without this factor more than 1.6 times (n = 2 to
-# 128, both elements, both routes).
+# An accuracy is an estimate, down to a tenth of the error. On the contact patch test all errors are
+# round-off, and none exceeds its bound without this factor more than 1.6 times (n = 2 to 128, both
+# elements, both routes).
 _FACTOR = 8.0
 
 # An error is not round-off alone where the mesh cannot resolve this share of it: 0.25 and more on
@@ -44,27 +45,32 @@ class RoundOff:
     residual: float = 0.0
 
     @classmethod
-    def of(cls, found):
+    def of(cls, solution):
         """That of a `StoredSolution`."""
-        size, variation = (
-            float(np.max(np.abs(found.u), initial=0.0)),
-            float(np.ptp(found.u)) if found.u.size else 0.0,
-        )
-        force = found.multiplier_accuracy * float(np.max(np.abs(found.multiplier), initial=0.0))
+        size, largest_force = _largest(solution.u), _largest(solution.multiplier)
+        variation = float(np.ptp(solution.u)) if solution.u.size else 0.0
         return cls(
-            size,
-            _FACTOR * (_EPS * size + found.accuracy * variation),
-            _FACTOR * force,
-            found.residual,
+            size=size,
+            dof=_FACTOR * (_EPS * size + solution.accuracy * variation),
+            force=_FACTOR * (solution.multiplier_accuracy * largest_force),
+            residual=solution.residual,
         )
 
     def together_with(self, other):
-        """The worse of two, each in its kind."""
-        pairs = ((self.size, other.size), (self.dof, other.dof), (self.force, other.force))
-        return RoundOff(*map(max, pairs), max(self.residual, other.residual))
+        """The worse of two in each quantity."""
+        return RoundOff(
+            size=max(self.size, other.size),
+            dof=max(self.dof, other.dof),
+            force=max(self.force, other.force),
+            residual=max(self.residual, other.residual),
+        )
 
 
-def norm_floors(mesh, rounding, norms, coefficient=None):
+def _largest(values):
+    return float(np.max(np.abs(values), initial=0.0))
+
+
+def round_off_bounds(mesh, rounding, norms, coefficient=None):
     """The size up to which each norm of an error may be round-off alone.
 
     An error of every degree of freedom has in l2 the norm of a constant. Its energy is the work
@@ -88,22 +94,19 @@ def norm_floors(mesh, rounding, norms, coefficient=None):
         For each of the norms but the distance of critical points, in its unit.
     """
     k = np.broadcast_to(1.0, mesh.number_of_triangles) if coefficient is None else coefficient
-    return {
-        norm: float(np.sqrt(_SQUARES[norm](mesh, k, rounding)))
-        for norm in norms
-        if norm in _SQUARES
-    }
+    bounded = [norm for norm in norms if norm in _SQUARES]
+    return {norm: float(np.sqrt(_SQUARES[norm](mesh, k, rounding))) for norm in bounded}
 
 
-def round_off_alone(errors, floors, unresolved):
+def round_off_alone(errors, bounds, unresolved):
     """The norms in which an error is round-off alone.
 
     Parameters
     ----------
     errors : dict
         Norm -> error, or None.
-    floors : dict
-        As `norm_floors` gives them.
+    bounds : dict
+        As `round_off_bounds` gives them.
     unresolved : callable
         From a list of norms to a dict: norm -> what no discrete function on the solution's mesh has
         of the truth, a part of every error in this norm. Asked only of the norms in doubt.
@@ -111,11 +114,10 @@ def round_off_alone(errors, floors, unresolved):
     Returns
     -------
     list of str
-        Those in which the error is not above its floor, and more than what the mesh cannot resolve.
+        Those in which the error is not above its bound, and more than what the mesh cannot resolve.
     """
-    doubtful = [
-        norm for norm, floor in floors.items() if errors[norm] is not None and errors[norm] <= floor
-    ]
+    known = {norm: bound for norm, bound in bounds.items() if errors[norm] is not None}
+    doubtful = [norm for norm, bound in known.items() if errors[norm] <= bound]
     parts = unresolved(doubtful) if doubtful else {}
     return [norm for norm in doubtful if parts[norm] <= _SHARE * errors[norm]]
 
@@ -125,8 +127,10 @@ def _l2(mesh, k, rounding):
 
 
 def _energy(mesh, k, rounding):
-    """A row of the equations is off by at most the residual times three times its diagonal entry
-    times max |u|.
+    """The work of the residual on the error.
+
+    A row of the equations is off by at most the residual times three times its diagonal entry times
+    max |u|.
     """
     residual = 3.0 * max(_EPS, rounding.residual) * rounding.size
     return rounding.dof * residual * np.sum(k * _stiffness(mesh))
@@ -137,19 +141,20 @@ def _gradient(mesh, k, rounding):
 
 
 def _trace(mesh, k, rounding):
-    return rounding.dof**2 * np.sum(find_side(mesh, "contact").length)
+    return rounding.dof**2 * np.sum(find_boundary_trace(mesh, "contact").length)
 
 
 def _multiplier(mesh, k, rounding):
-    side = find_side(mesh, "contact")
-    stiffness = (k * _stiffness(mesh))[side.triangles]
+    trace = find_boundary_trace(mesh, "contact")
+    stiffness = (k * _stiffness(mesh))[trace.triangles]
     force = rounding.force + _FACTOR * _EPS * rounding.size * stiffness
-    return np.sum(force**2 / side.length)
+    return np.sum(force**2 / trace.length)
 
 
 def _stiffness(mesh):
-    """Trace of each triangle's stiffness matrix for a coefficient of 1, (nt,): dimensionless, large
-    for needles.
+    """Trace of each triangle's stiffness matrix for a coefficient of 1, (nt,).
+
+    Dimensionless, and large for needles.
     """
     if isinstance(mesh, Grid):
         hx, hy = mesh.spacing

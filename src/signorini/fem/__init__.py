@@ -1,3 +1,4 @@
-"""Discretisation: the elements P1 and CR, quadrature, load, stiffness and its stencil;
-`problem.Problem` holds them.
+"""Discretisation: the elements P1 and CR, quadrature, load, and stiffness.
+
+`problem.discretize` makes a `problem.Problem` of them.
 """

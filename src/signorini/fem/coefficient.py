@@ -1,5 +1,6 @@
-"""The diffusion coefficient on a mesh: a formula taken at centroids, or a number for each subdomain
-of a mesh file.
+"""The diffusion coefficient on a mesh.
+
+It is a formula taken at centroids, or a number for each subdomain of a mesh file.
 """
 
 import numpy as np
@@ -47,43 +48,45 @@ def _at_centroids(mesh, formula):
     if wrong.any():
         k = int(np.argmax(wrong))
         raise FormulaError(
-            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); it must be from {low:g} to "
-            f"{high:g}"
+            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); "
+            f"it must be from {low:g} to {high:g}"
         )
     return values
 
 
 def _by_subdomain(mesh, coefficient):
-    known, field = getattr(mesh, "subdomains", {}), coefficient.field
-    values, times = (
-        np.zeros(mesh.number_of_triangles),
-        np.zeros(mesh.number_of_triangles, dtype=int),
-    )
+    known = getattr(mesh, "subdomains", {})
+    values = np.zeros(mesh.number_of_triangles)
+    times = np.zeros(mesh.number_of_triangles, dtype=int)
     for name, number in coefficient.numbers.items():
         if name not in known:
             raise MeshError(
-                f"{field}.{name[:60]}: the mesh has no such subdomain; {nearest(name, known or ['none'])}"
+                f"{coefficient.field}.{name[:60]}: the mesh has no such subdomain; "
+                f"{nearest(name, known or ['none'])}"
             )
         values[known[name]] = number
         times[known[name]] += 1
     for wrong, complaint in ((times == 0, _missing), (times > 1, _double)):
         if wrong.any():
-            k = int(np.argmax(wrong))
-            x, y = mesh.p[:, mesh.t[:, k]].mean(axis=1)
-            around = [name for name, members in known.items() if k in members]
-            raise MeshError(
-                f"{field}: triangle {k} at ({x:.6g}, {y:.6g}) {complaint(coefficient, around)}"
-            )
+            _refuse(mesh, coefficient, int(np.argmax(wrong)), complaint)
     return values
 
 
-def _missing(coefficient, around):
-    remedy = (
-        f"add a number for {' or '.join(around)}"
-        if around
-        else "put it into a group of the mesh file"
+def _refuse(mesh, coefficient, triangle, complaint):
+    """Raise MeshError for a triangle without a coefficient, or with two."""
+    x, y = mesh.p[:, mesh.t[:, triangle]].mean(axis=1)
+    subdomains = getattr(mesh, "subdomains", {})
+    around = [name for name, members in subdomains.items() if triangle in members]
+    raise MeshError(
+        f"{coefficient.field}: triangle {triangle} at ({x:.6g}, {y:.6g}) "
+        f"{complaint(coefficient, around)}"
     )
-    return f"has no coefficient; {remedy}"
+
+
+def _missing(_, around):
+    if around:
+        return f"has no coefficient; add a number for {' or '.join(around)}"
+    return "has no coefficient; put it into a group of the mesh file"
 
 
 def _double(coefficient, around):

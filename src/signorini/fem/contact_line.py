@@ -1,15 +1,14 @@
-"""What happens on the contact part: the trace of u, the contact force, and the critical points
-where u starts to bind.
+"""What happens on the contact part: trace, contact force and critical points.
 
-The part may have several components, and each may turn corners; they are walked as `mesh.paths`
-says, and the arc length runs on from one to the next.
+At a critical point u starts to bind. The part may have several components, and each may turn
+corners; they are walked as `mesh.paths` says, and the arc length runs on from one to the next.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.paths import boundary_paths
 
 
@@ -41,23 +40,14 @@ class ContactLine:
     critical_points: np.ndarray
 
 
-_NOTHING = (
-    np.zeros(0, int),
-    np.zeros(0, int),
-    np.zeros(0),
-    np.zeros((2, 0)),
-    np.zeros(0),
-    np.zeros((2, 0)),
+_NOTHING = ContactLine(
+    which=np.zeros(0, int),
+    component=np.zeros(0, int),
+    s=np.zeros(0),
+    points=np.zeros((2, 0)),
+    critical=np.zeros(0),
+    critical_points=np.zeros((2, 0)),
 )
-
-# The degrees of freedom on a path, and the first of the marks that they sit on, every second one.
-_PLACES = {"P1": ("vertices", 0), "CR": ("facets", 1)}
-
-# The degrees of freedom that hold on the first and on the second half of each facet of a path.
-_HALVES = {
-    "P1": lambda path: (path.vertices[:-1], path.vertices[1:]),
-    "CR": lambda path: (path.facets, path.facets),
-}
 
 
 def contact_line(mesh, solution):
@@ -77,7 +67,7 @@ def contact_line(mesh, solution):
         (nc,); ``critical_points`` (k, 2), between neighbouring nodes of which one binds: known to
         half a mesh width.
     """
-    line = _ordered(mesh, solution.element, solution.contact, solution.active)
+    line = _ordered(mesh, find_element(solution.element), solution.contact, solution.active)
     return {
         "contact_x": _position(line),
         "contact_u": solution.u[solution.contact][line.which],
@@ -88,7 +78,8 @@ def contact_line(mesh, solution):
 
 def _position(line):
     width, height = np.ptp(line.points, axis=1) if line.s.size else (0.0, 0.0)
-    if min(width, height) > 0.0 or np.any(line.component != 1):
+    on_an_axis = min(width, height) == 0.0
+    if not on_an_axis or np.any(line.component != 1):
         return line.s
     return line.points[int(height > width)]
 
@@ -111,8 +102,9 @@ def contact_rows(mesh, solution):
         critical point between this row and the next of its component (in a closed one the first
         follows the last), or None. Empty without contact part.
     """
-    line = _ordered(mesh, solution.element, solution.contact, solution.active)
-    flux = contact_flux(mesh, solution.element, solution.contact, solution.multiplier)
+    element = find_element(solution.element)
+    line = _ordered(mesh, element, solution.contact, solution.active)
+    flux = contact_flux(mesh, element, solution.contact, solution.multiplier)
     columns = {
         "component": line.component,
         "s": line.s,
@@ -135,7 +127,7 @@ def contact_flux(mesh, element, contact, multiplier):
     Parameters
     ----------
     mesh : Grid or Triangulation
-    element : {"P1", "CR"}
+    element : {"P1", "CR"} or Element
     contact : ndarray of int, shape (nc,)
         Contact dofs.
     multiplier : ndarray, shape (nc,)
@@ -147,9 +139,10 @@ def contact_flux(mesh, element, contact, multiplier):
         The force over the length on which the dof holds: for CR its facet, for P1 the adjacent
         halves of the contact facets that meet there. Unit of k u per length.
     """
-    length = np.zeros(find_element(element).size(mesh))
+    element = find_element(element)
+    length = np.zeros(element.size(mesh))
     for path in boundary_paths(mesh, "contact"):
-        for dofs in _HALVES[element](path):
+        for dofs in element.half_facet_dofs(path):
             np.add.at(length, dofs, 0.5 * path.lengths)
     return multiplier / length[contact]
 
@@ -170,69 +163,102 @@ def binding_pieces(mesh, solution):
         halves of those whose two dofs differ. A dof under a Dirichlet condition leaves its half to
         the other.
     """
-    state = np.full(find_element(solution.element).size(mesh), np.nan)
+    element = find_element(solution.element)
+    state = np.full(element.size(mesh), np.nan)  # stays NaN under a Dirichlet condition
     state[solution.contact] = solution.active
     pieces = [np.zeros((0, 2, 2))]
     for path in boundary_paths(mesh, "contact"):
-        first, second = (state[dofs] for dofs in _HALVES[solution.element](path))
-        first, second = (
-            np.where(np.isnan(first), second, first) == 1,
-            np.where(np.isnan(second), first, second) == 1,
-        )
-        marks = path.marks
-        start = np.where(first, marks[:, :-1:2], marks[:, 1::2])
-        end = np.where(second, marks[:, 2::2], marks[:, 1::2])
-        pieces.append(np.stack([start, end]).transpose(2, 0, 1)[first | second])
+        first, second = (state[dofs] for dofs in element.half_facet_dofs(path))
+        first_binds = np.where(np.isnan(first), second, first) == 1
+        second_binds = np.where(np.isnan(second), first, second) == 1
+        pieces.append(_pieces_of(path, first_binds, second_binds))
     return np.concatenate(pieces)
 
 
-def critical_points(mesh, element, contact, active):
-    """The critical points of a solution, where of two neighbouring contact dofs one binds: midway,
-    shape (2, k).
+def _pieces_of(path, first, second):
+    """The binding pieces of one path, by whether the first and the second half of a facet bind."""
+    begin, middle, end = path.marks[:, :-1:2], path.marks[:, 1::2], path.marks[:, 2::2]
+    start = np.where(first, begin, middle)
+    end = np.where(second, end, middle)
+    return np.stack([start, end]).transpose(2, 0, 1)[first | second]
 
-    `contact` are the contact dofs of the `element`, `active` says which of them bind.
+
+def critical_points(mesh, element, contact, active):
+    """The critical points of a solution: midway between contact dofs of which one binds.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : {"P1", "CR"} or Element
+    contact : ndarray of int, shape (nc,)
+        Contact dofs.
+    active : ndarray of bool, shape (nc,)
+        Which of them bind.
+
+    Returns
+    -------
+    ndarray, shape (2, k)
+        Unit of length.
     """
-    return _ordered(mesh, element, contact, active).critical_points
+    return _ordered(mesh, find_element(element), contact, active).critical_points
 
 
 def _ordered(mesh, element, contact, active):
     """The `ContactLine` of a solution, by its contact dofs and which of them bind."""
-    position = np.full(find_element(element).size(mesh), -1)
+    position = np.full(element.size(mesh), -1)
     position[contact] = np.arange(contact.size)
-    start, parts = 0.0, [_NOTHING]
+    start, lines = 0.0, [_NOTHING]
     for component, path in enumerate(boundary_paths(mesh, "contact"), start=1):
-        parts.append(_ordered_path(path, element, active, position, component, start))
+        lines.append(_ordered_path(path, element, active, position, component, start))
         start += path.arc_length[-1]
-    return ContactLine(*(np.concatenate(arrays, axis=-1) for arrays in zip(*parts, strict=True)))
+    return ContactLine(
+        *(
+            np.concatenate([getattr(line, field.name) for line in lines], axis=-1)
+            for field in fields(ContactLine)
+        )
+    )
 
 
 def _ordered_path(path, element, active, position, component, start):
-    """The fields of a `ContactLine` for the dofs of one path, which starts at arc length `start`."""
-    kind, first = _PLACES[element]
+    """The `ContactLine` of one path, which starts at arc length `start`.
+
+    Marks are the vertices and midpoints of the path by turns; dofs sit on every second one, and
+    critical points on those between::
+
+        P1   dof  .  dof  .  dof        CR   .  dof  .  dof  .
+              0   1   2   3   4              0   1   2   3   4
+    """
+    dofs, first = element.path_dofs(path)
     s, marks = start + path.arc_length, path.marks
     at = np.arange(first, s.size - path.closed, 2)
-    which = position[getattr(path, kind)[at // 2]]
+    which = position[dofs[at // 2]]
     known = which >= 0
-    binds = np.append(active, False)[which]
+    binds = np.append(active, False)[which]  # dofs off the contact part, -1, do not bind
     turns = known & np.roll(known, -1) & (binds != np.roll(binds, -1))
     turns[-1] &= path.closed
     between = at[turns] + 1
     critical = np.full(at.size, np.nan)
     critical[turns] = s[between]
     at = at[known]
-    return (
-        which[known],
-        np.full(at.size, component),
-        s[at],
-        marks[:, at],
-        critical[known],
-        marks[:, between],
+    return ContactLine(
+        which=which[known],
+        component=np.full(at.size, component),
+        s=s[at],
+        points=marks[:, at],
+        critical=critical[known],
+        critical_points=marks[:, between],
     )
 
 
 def sampled_surface(grid, u, cells):
-    """A P1 function at every k-th vertex of a grid, k the smallest that leaves at most `cells`
-    cells a side.
+    """A P1 function at every k-th vertex of a grid.
+
+    Parameters
+    ----------
+    grid : Grid
+    u : ndarray, shape (number_of_vertices,)
+    cells : int
+        The most cells a side that are left; k is the smallest that leaves no more.
 
     Returns
     -------

@@ -5,16 +5,15 @@ from dataclasses import dataclass, field
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
 
-COEFFICIENTS = (
-    1e-100,
-    1e100,
-)  # the least and the greatest: products with data then neither under- nor overflow
+# The least and the greatest coefficient: products with data then neither under- nor overflow.
+COEFFICIENTS = (1e-100, 1e100)
 
 
 @dataclass(frozen=True)
 class BySubdomain:
-    """A number for each subdomain of a mesh file, a group of its triangles;
-    `coefficient.coefficient_on` places them.
+    """A number for each subdomain of a mesh file, which is a group of its triangles.
+
+    `coefficient.coefficient_on` gives each triangle its number.
 
     Parameters
     ----------
@@ -44,11 +43,21 @@ class BySubdomain:
 
 @dataclass(frozen=True)
 class Data:
-    """The data of a problem, each a `Formula`: force f, flux g, Dirichlet values, obstacle,
-    diffusion coefficient.
+    """The data of a problem, each a `Formula`.
 
-    The coefficient may be a `BySubdomain` instead. Data derived from an exact solution are
-    callables of the same interface; such a g also takes the normal.
+    Data derived from an exact solution are callables of the same interface; such a g also takes
+    the normal.
+
+    Parameters
+    ----------
+    f : Formula
+        Volume force, unit of k u per length squared.
+    g : Formula
+        Flux on the Neumann part, unit of k u per length.
+    dirichlet, obstacle : Formula
+        Values on the Dirichlet part, and the least ones on the contact part; unit of u.
+    coefficient : Formula or BySubdomain
+        Diffusion coefficient k.
     """
 
     f: Formula
@@ -61,7 +70,9 @@ class Data:
 
 
 def read_coefficient(value):
-    """The entry ``data.coefficient`` of a scene: a `Formula`, or `BySubdomain` where it is a
-    section.
+    """The entry ``data.coefficient`` of a scene.
+
+    It is a `BySubdomain` where it is a section, else a `Formula`.
     """
-    return (BySubdomain if isinstance(value, dict) else Formula)(value, "data.coefficient")
+    kind = BySubdomain if isinstance(value, dict) else Formula
+    return kind(value, "data.coefficient")

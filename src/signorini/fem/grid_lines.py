@@ -1,9 +1,12 @@
-"""Quadrature points in the cells of a grid, by the lines on which they lie: a factor that depends
-on one coordinate alone is then computed once for each line, and never for each point."""
+"""Quadrature points in the cells of a grid, by the lines on which they lie.
+
+A factor that depends on one coordinate alone is then computed once for each line, and never for
+each point.
+"""
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 
 _POINTS_AT_ONCE = 2**17  # a megabyte an array: calls are few, and temporaries stay in a cache
 _DIGITS = 12  # to which points share a coordinate, in units of a cell
@@ -32,26 +35,37 @@ def points_on_lines(grid, corners, points, first, last):
         Coordinates, which broadcast to (l, m, rows, nx), axis by axis.
     """
     hx, hy = grid.spacing
-    i, j = (points.T @ np.array(corners)).T
-    for lines, shared in _lines(np.stack([i, j])):
-        size = lines.shape[1] * grid.nx
-        for some in blocks(len(lines), max(1, _POINTS_AT_ONCE // (size * (last - first)))):
-            which = lines[some]
-            along, up = (
-                one[which[:, :1] if axis == shared else which] for axis, one in enumerate((i, j))
-            )
-            x = grid.x[:-1] + along[:, :, None, None] * hx
-            for rows in blocks(last - first, max(1, _POINTS_AT_ONCE // size)):
-                yield which, rows, x, grid.y[first:last][rows, None] + up[:, :, None, None] * hy
+    place = (points.T @ np.array(corners)).T
+    y = grid.y[first:last]
+    for lines, shared in _lines(place):
+        on_a_line = lines.shape[1] * grid.nx  # points of one line, in all cells of a row
+        most_lines = max(1, _POINTS_AT_ONCE // (on_a_line * (last - first)))
+        for chosen in chunk_slices(len(lines), most_lines):
+            which = lines[chosen]
+            along, up = _offsets(place, which, shared)
+            x = grid.x[:-1] + along * hx
+            for rows in chunk_slices(last - first, max(1, _POINTS_AT_ONCE // on_a_line)):
+                yield which, rows, x, y[rows, None] + up * hy
+
+
+def _offsets(place, which, shared):
+    """Both coordinates of points in a cell, to broadcast to (l, m, rows, nx).
+
+    Along the axis that a line's points share there is one value for each line, shape (l, 1, 1, 1);
+    along the other one for each point, (l, m, 1, 1).
+    """
+    for axis, offset in enumerate(place):
+        points = which[:, :1] if axis == shared else which
+        yield offset[points][:, :, None, None]
 
 
 def _lines(place):
-    """Points (2, q) by the coordinate with fewer values: arrays (l, m) of lines with m points each,
-    and its axis.
+    """Sort points (2, q) into lines, by the coordinate with fewer values.
+
+    Yield arrays (l, m) of l lines with m points each, and the axis of that coordinate.
     """
-    distinct, which = zip(
-        *(np.unique(np.round(one, _DIGITS), return_inverse=True) for one in place), strict=True
-    )
+    rounded = [np.round(one, _DIGITS) for one in place]
+    distinct, which = zip(*(np.unique(one, return_inverse=True) for one in rounded), strict=True)
     shared = int(distinct[1].size < distinct[0].size)
     lines = [np.flatnonzero(which[shared] == line) for line in range(distinct[shared].size)]
     for size in dict.fromkeys(line.size for line in lines):
@@ -59,8 +73,17 @@ def _lines(place):
 
 
 def weighted(weights, values):
-    """Sums over points, (m, ...) with weights (k, m): (k, ...); of one point a product, which is
-    faster than a sum.
+    """Weighted sums over points.
+
+    Parameters
+    ----------
+    weights : ndarray, shape (k, m)
+    values : ndarray, shape (m, ...)
+
+    Returns
+    -------
+    ndarray, shape (k, ...)
+        Of one point (m = 1) a product, which is faster than a sum.
     """
     if len(values) == 1:
         return weights.reshape(-1, *[1] * (values.ndim - 1)) * values

@@ -1,22 +1,20 @@
-"""From a scene to a bound-constrained quadratic problem: minimise u'Au/2 - b'u, u >= lower on
-contact dofs.
+"""From a scene to a bound-constrained quadratic problem.
+
+Minimise u'Au/2 - b'u such that u >= lower on the contact dofs and u is given on the fixed ones.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from signorini.exceptions import SceneError
 from signorini.fem.coefficient import coefficient_on
-from signorini.fem.elements import element as find_element
+from signorini.fem.data_checks import check_corners, check_poles
+from signorini.fem.elements import find_element
 from signorini.fem.load import assemble_load
 from signorini.fem.stencil import apply_stiffness, contact_fluxes
-from signorini.formula import Formula
 from signorini.mesh.grid import Grid
-
-_ROUNDING = 1e-10
-_COARSE = 2**15
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +48,20 @@ class Problem:
     fixed_values: np.ndarray
     coefficient: np.ndarray | None = None
 
+    @property
+    def finite_element(self):
+        """The `Element` itself."""
+        return find_element(self.element)
+
     @cached_property
     def A(self):
-        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient; assembled when
-        first asked for.
+        """Stiffness matrix, scipy.sparse CSR (ndof, ndof), unit of the coefficient.
+
+        It is assembled when first asked for.
         """
         from signorini.fem.stiffness import assemble_stiffness
 
-        return assemble_stiffness(self.mesh, find_element(self.element), self.coefficient)
+        return assemble_stiffness(self.mesh, self.finite_element, self.coefficient)
 
     @cached_property
     def free(self):
@@ -68,23 +72,25 @@ class Problem:
 
     @cached_property
     def grid(self):
-        """The mesh where a stencil is the whole matrix: a uniform `Grid` with coefficient 1; else
-        None.
+        """The mesh where a stencil is the whole matrix, else None.
+
+        That is a uniform `Grid` with coefficient 1.
         """
         return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
 
     def apply(self, u):
-        """A @ u, without the matrix where a stencil is the whole of it (`grid`)."""
+        """A @ u, without the matrix where a stencil is the whole of it (see `grid`)."""
         if self.grid is not None:
-            return apply_stiffness(self.grid, self.element, u)
+            return apply_stiffness(self.grid, self.finite_element, u)
         return self.A @ u
 
     @property
     def contact_points(self):
-        """Where the contact dofs are, shape (2, nc), unit of length: vertices for P1, midpoints of
-        facets for CR.
+        """Where the contact dofs are, shape (2, nc), unit of length.
+
+        Vertices for P1, midpoints of facets for CR.
         """
-        return find_element(self.element).nodes(self.mesh, self.contact)
+        return self.finite_element.nodes(self.mesh, self.contact)
 
     def contact_fluxes(self, u):
         """What flows into the contact dofs when the dofs are `u`.
@@ -106,19 +112,85 @@ class Problem:
         if not self.contact.size:
             return np.zeros((3, 0))
         if self.grid is not None:
-            return contact_fluxes(self.grid, self.element, u, self.contact)
+            return contact_fluxes(self.grid, self.finite_element, u, self.contact)
         rows, nothing = self.A[self.contact], np.zeros(self.contact.size)
         less, fluxes = residual_and_fluxes(rows, nothing, u, self.contact)
         return -less, fluxes, abs(rows) @ np.abs(u)
 
     @cached_property
     def contact_lengths(self):
-        """The length of the contact part that each contact dof stands for, shape (nc,), unit of
-        length.
+        """The length of contact part that each contact dof stands for, (nc,), unit of length.
 
         For CR that of its facet, for P1 half of each contact facet that meets there.
         """
-        return find_element(self.element).boundary_lengths(self.mesh, "contact")[self.contact]
+        return self.finite_element.boundary_lengths(self.mesh, "contact")[self.contact]
+
+    def with_data(self, **data):
+        """The same problem with other data; its matrix is kept if it is there already.
+
+        Parameters
+        ----------
+        **data
+            Any of ``b``, ``lower`` and ``fixed_values``, none of which A depends on.
+
+        Returns
+        -------
+        Problem
+        """
+        changed = replace(self, **data)
+        if "A" in vars(self):
+            vars(changed)["A"] = self.A  # where `cached_property` looks it up
+        return changed
+
+    def scaled(self, exponent):
+        """The problem whose data, and so whose solution, are 2**exponent times these.
+
+        A power of two rounds nothing, but where the result is subnormal or overflows.
+
+        Parameters
+        ----------
+        exponent : int
+
+        Returns
+        -------
+        Problem
+            This one where the exponent is 0.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> scene = signorini.load_scene("config/scenes/paper.yaml")
+        >>> problem = signorini.discretize(scene, "P1", 2)
+        >>> float(problem.scaled(3).b[0] / problem.b[0])
+        8.0
+        """
+        if not exponent:
+            return self
+        return self.with_data(
+            b=np.ldexp(self.b, exponent),
+            lower=np.ldexp(self.lower, exponent),
+            fixed_values=np.ldexp(self.fixed_values, exponent),
+        )
+
+    def shifted(self, constant):
+        """The problem whose solution is less by a constant, unit of u.
+
+        Every row of A sums to zero, so the load stays as it is.
+
+        Parameters
+        ----------
+        constant : float
+
+        Returns
+        -------
+        Problem
+            This one where the constant is 0.
+        """
+        if not constant:
+            return self
+        return self.with_data(
+            lower=self.lower - constant, fixed_values=self.fixed_values - constant
+        )
 
 
 def discretize(scene, element, n):
@@ -160,28 +232,33 @@ def discretize(scene, element, n):
 
 
 def discretize_on(mesh, element, statement):
-    """Discretise a problem statement on a given triangulation, whatever its own domain says; see
-    `discretize`.
+    """Discretise a problem statement on a given triangulation; see `discretize`.
 
-    The mesh's labels hold; of the statement, the data and the load quadrature alone are used, and
-    nothing is checked against an exact truth.
+    The domain of the statement is not used, and the mesh's labels hold. Of the statement, the data
+    and the load quadrature alone are used, and nothing is checked against an exact truth.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : {"P1", "CR"}
+    statement : ProblemStatement
+
+    Returns
+    -------
+    Problem
     """
-    kind = find_element(element)
-    data = statement.data
-    _check_poles(mesh, data.f)
-    fixed = kind.boundary_dofs(mesh, "dirichlet")
-    contact = np.setdiff1d(kind.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)
-    lower, fixed_values = (
-        data.obstacle(*kind.nodes(mesh, contact)),
-        data.dirichlet(*kind.nodes(mesh, fixed)),
-    )
-    _check_corners(
-        mesh, data, max(np.max(np.abs(values), initial=0.0) for values in (lower, fixed_values))
-    )
+    finite_element, data = find_element(element), statement.data
+    check_poles(mesh, data.f)
+    fixed = finite_element.boundary_dofs(mesh, "dirichlet")
+    contact = finite_element.boundary_dofs(mesh, "contact")
+    contact = np.setdiff1d(contact, fixed, assume_unique=True)
+    lower = data.obstacle(*finite_element.nodes(mesh, contact))
+    fixed_values = data.dirichlet(*finite_element.nodes(mesh, fixed))
+    check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))
     return Problem(
-        element=element,
+        element=finite_element.name,
         mesh=mesh,
-        b=assemble_load(mesh, kind, data.f, data.g, statement.load_quadrature),
+        b=assemble_load(mesh, finite_element, data.f, data.g, statement.load_quadrature),
         contact=contact,
         lower=lower,
         fixed=fixed,
@@ -190,29 +267,5 @@ def discretize_on(mesh, element, statement):
     )
 
 
-def _check_poles(mesh, f):
-    """Evaluate f where quadrature may not, at vertices and edge midpoints of coarse meshes: poles
-    tend to be there.
-    """
-    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
-        f(*mesh.p)
-        a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
-        f(*(0.5 * (a + b)))
-
-
-def _check_corners(mesh, data, size):
-    """Where the obstacle lies above the Dirichlet data at a shared corner the trace would jump: K
-    is empty.
-    """
-    shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
-    x, y = mesh.points(shared)
-    obstacle, dirichlet = (
-        formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet)
-    )
-    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
-    if above.any():
-        k = int(np.flatnonzero(above)[0])
-        raise SceneError(
-            f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet parts meet: obstacle "
-            f"{obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; lower the obstacle or raise dirichlet there"
-        )
+def _largest(values):
+    return np.max(np.abs(values), initial=0.0)

@@ -40,6 +40,12 @@ def triangle_rule(rule, number_of_triangles=0):
     ------
     SceneError
         If there is no such rule.
+
+    Examples
+    --------
+    >>> points, weights = triangle_rule("midpoints")
+    >>> points[:, 0].tolist(), round(float(weights.sum()), 12)
+    ([0.5, 0.5, 0.0], 1.0)
     """
     if rule in _NAMED:
         return _NAMED[rule]
@@ -47,14 +53,17 @@ def triangle_rule(rule, number_of_triangles=0):
         rule = _EXACT_DEGREE if number_of_triangles < _FINE else _EXACT_DEGREE_FINE
     if not isinstance(rule, int) or rule < 0:
         raise SceneError(
-            f"unknown quadrature rule {rule!r}; known: {', '.join(_NAMED)}, exact, or a polynomial degree"
+            f"unknown quadrature rule {rule!r}; known: {', '.join(_NAMED)}, exact, "
+            "or a polynomial degree"
         )
     return _collapsed_gauss(rule)
 
 
 def _collapsed_gauss(degree):
-    """Gauss-Legendre product rule on the square, collapsed to the triangle (Stroud 1971), exact to
-    `degree`.
+    """Gauss-Legendre product rule on the square, collapsed to the triangle; exact to `degree`.
+
+    Stroud, Approximate calculation of multiple integrals, Prentice-Hall (1971). The sides s = const
+    of the square shrink to the vertex where s = 1, and 1 - s is the factor of the area.
     """
     s, ws = interval_rule(degree + 1)
     t, wt = interval_rule(degree)

@@ -7,19 +7,39 @@ is near the last bit, and a force keeps its digits where entries of A are huge.
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.work import count
 
 EPS = np.finfo(float).eps
 BELOW = 1e-8 * EPS  # of what u varies: a stiff part feels what is far below the last bit
 _ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for zero
-_FLUX = (
-    4.0  # roundings of a flux: the coupling, the difference, their product, and the sum of the row
-)
+# Roundings of a flux: the coupling, the difference, their product, and the sum of the row.
+_FLUX = 4.0
 
 
 def residual(A, b, u, sums=None):
-    """b - A u; arguments and unit as in `residual_and_fluxes`."""
+    """b - A u, summed from differences of u.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (m, m)
+        A stiffness matrix.
+    b, u : ndarray, shape (m,)
+    sums : ndarray, shape (m,), optional
+        ``row_sums(A)``, where it is known.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Unit of b.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> A = csr_array([[1.0, -1.0], [-1.0, 1.0]])
+    >>> residual(A, np.zeros(2), np.array([1e20, 1e20])).tolist()
+    [0.0, 0.0]
+    """
     return _by_differences(A, b, u, None, sums, None)
 
 
@@ -47,51 +67,59 @@ def residual_and_fluxes(A, b, u, rows=None, sums=None):
 
 
 def row_sums(A):
-    """The sum of each row of a matrix, zero where it is no more than round-off; empty where all
-    are. Shape (m,).
+    """The sum of each row of a matrix, shape (m,): zero where it is no more than round-off.
+
+    Empty where all are.
     """
     sums = np.zeros(A.shape[0])
-    for part, entries, starts in _parts(A):
+    for rows, entries, starts in _chunks(A):
         data = A.data[entries]
-        sums[part], sizes = np.add.reduceat(data, starts), np.add.reduceat(np.abs(data), starts)
-        sums[part][np.abs(sums[part]) <= _ROUNDING * sizes] = 0.0
+        total = np.add.reduceat(data, starts)
+        sizes = np.add.reduceat(np.abs(data), starts)
+        sums[rows] = np.where(np.abs(total) <= _ROUNDING * sizes, 0.0, total)
     return sums if sums.any() else np.zeros(0)
 
 
-def _parts(A):
+def _chunks(A):
     """Slices of rows, of their entries, and where among these each row starts."""
-    for part in blocks(A.shape[0]):
-        first = A.indptr[part.start : part.stop + 1]
-        yield part, slice(first[0], first[-1]), first[:-1] - first[0]
+    for rows in chunk_slices(A.shape[0]):
+        first = A.indptr[rows.start : rows.stop + 1]
+        yield rows, slice(first[0], first[-1]), first[:-1] - first[0]
 
 
 def _by_differences(A, b, u, rows, sums, fluxes):
-    """b - A u; where asked for, the sums of the sizes of its terms go to `fluxes`."""
+    """b - A u; the sums of the sizes of its terms go to `fluxes`, where that is an array."""
     count(products=rows is None)
     sums = row_sums(A) if sums is None else sums
-    found = b.copy()
-    for part, entries, starts in _parts(A):
+    result = b.copy()
+    for part, entries, starts in _chunks(A):
         own = u[part] if rows is None else u[rows[part]]
         terms = u[A.indices[entries]]
         terms -= np.repeat(own, np.diff(A.indptr[part.start : part.stop + 1]))
         terms *= A.data[entries]
-        found[part] -= np.add.reduceat(terms, starts)
+        result[part] -= np.add.reduceat(terms, starts)
         if sums.size:
-            found[part] -= sums[part] * own
+            result[part] -= sums[part] * own
         if fluxes is not None:
             fluxes[part] = np.add.reduceat(np.abs(terms, out=terms), starts)
             if sums.size:
                 fluxes[part] += np.abs(sums[part] * own)
-    return found
+    return result
 
 
 def rounding_of(b, fluxes):
-    """A bound of what rounding does to each row of `residual`, of the couplings to doubles
-    included, shape (m,).
+    """A bound of what rounding does to each row of `residual`.
+
+    The rounding of the couplings to doubles is included.
 
     Parameters
     ----------
     b, fluxes : ndarray, shape (m,)
         See `residual_and_fluxes`.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Unit of b.
     """
     return EPS * (_FLUX * fluxes + np.abs(b))

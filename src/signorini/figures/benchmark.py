@@ -4,10 +4,18 @@ import math
 
 import matplotlib
 
-from signorini.figures.convergence import ELEMENTS
-from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.errors.norms import NORMS
+from signorini.figures.style import (
+    ACCENT,
+    ELEMENT_STYLES,
+    FAINT,
+    GREY,
+    STYLE,
+    TEXT_WIDTH,
+    new_figure,
+)
 
-NORMS = {"l2": "$L^2$ error", "h1": "$H^1$ error"}
+TITLES = {norm: NORMS[norm].axis for norm in ("l2", "h1")}  # of the norms that are drawn
 LINES = (
     "-",
     (0, (4, 2)),
@@ -40,9 +48,9 @@ def draw_error(series):
     -------
     matplotlib.figure.Figure
     """
-    figure, panels = _panels(series, list(NORMS))
+    figure, panels = _panels(series, list(TITLES))
     for (scene, element, method), rows in series.items():
-        for norm in NORMS:
+        for norm in TITLES:
             shown = [row for row in rows if row[norm]]
             axes, times = panels[scene, norm], [row["total"] for row in shown]
             low = [row["total"] - row["total_min"] for row in shown]
@@ -65,7 +73,7 @@ def draw_error(series):
                     **place,
                     **align,
                 )
-    _finish(panels, "seconds", NORMS)
+    _finish(panels, "seconds", TITLES)
     return figure
 
 
@@ -123,16 +131,16 @@ def draw_dofs(series):
         2, len(scenes), squeeze=False, sharex=True, sharey="row", gridspec_kw=grid
     )
     for (scene, element, _), rows in _longest(series).items():
-        for line, norm in zip(all_axes, NORMS, strict=True):
+        for line, norm in zip(all_axes, TITLES, strict=True):
             shown = [row for row in rows if row[norm]]
-            style = {**ELEMENTS[element][1], "label": element, "markersize": 3, "linewidth": 0.8}
+            style = {**ELEMENT_STYLES[element], "label": element, "markersize": 3, "linewidth": 0.8}
             line[scenes.index(scene)].plot(
                 [row["dofs"] for row in shown], [row[norm] for row in shown], **style
             )
     for k, scene in enumerate(scenes):
         all_axes[0, k].set_title(scene, fontsize=7)
         all_axes[1, k].set_xlabel("unknowns")
-    for line, title in zip(all_axes, NORMS.values(), strict=True):
+    for line, title in zip(all_axes, TITLES.values(), strict=True):
         line[0].set_ylabel(title)
     for axes in all_axes.flat:
         axes.set(xscale="log", yscale="log")
@@ -208,7 +216,7 @@ def draw_rivals(rivals, titles):
     for axes, route in zip(all_axes, routes, strict=True):
         axes.axvline(1.0, color=GREY, linewidth=0.6)
         for row in (row for row in drawn if row["ours"] == route):
-            colour = BLACK if row["element"] == "P1" else ACCENT
+            colour = ELEMENT_STYLES[row["element"]]["color"]
             y = names.index(row["rival"]) + 0.6 * (levels.index(row["n"]) + 0.5) / len(levels) - 0.3
             fill = "white" if row["status"] == "failed" else colour
             axes.plot([row["ratio_min"], row["ratio_max"]], [y, y], color=colour, linewidth=0.4)
@@ -281,7 +289,7 @@ def _style(series, element, method):
     routes = list(dict.fromkeys(method for _, _, method in series))
     line = LINES[routes.index(method) % len(LINES)]
     return {
-        **ELEMENTS[element][1],
+        **ELEMENT_STYLES[element],
         "linestyle": line,
         "markersize": 2.5,
         "linewidth": 0.8,

@@ -3,9 +3,9 @@
 import matplotlib
 import numpy as np
 
-from signorini.figures.convergence import ELEMENTS
+from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.figures.field import CRITICAL, tidy_ticks, unit_exponent, with_unit
-from signorini.figures.style import BLACK, FAINT, STYLE, TEXT_WIDTH, new_figure
+from signorini.figures.style import BLACK, ELEMENT_STYLES, FAINT, STYLE, TEXT_WIDTH, new_figure
 
 MOST_MARKERS = 24  # on a line
 NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical")
@@ -64,8 +64,9 @@ def _finest(rows):
         raise ValueError("contact line: no rows; there is nothing to draw without a contact part")
     lines = {}
     for name in dict.fromkeys(row["element"] for row in rows):
-        if name not in ELEMENTS:
-            raise ValueError(f"no style for the element {name!r}; known: {', '.join(ELEMENTS)}")
+        if name not in ELEMENT_STYLES:
+            known = ", ".join(ELEMENT_STYLES)
+            raise ValueError(f"no style for the element {name!r}; known: {known}")
         n = max(int(row["n"]) for row in rows if row["element"] == name)
         found = [row for row in rows if row["element"] == name and int(row["n"]) == n]
         columns = {
@@ -106,7 +107,7 @@ def _by_component(line, name):
 def _draw_lines(upper, lower, lines):
     lower.axhline(0, color=FAINT, linewidth=0.5, zorder=1)
     for order, (name, line) in enumerate(lines.items()):
-        label, style = ELEMENTS[name]
+        label, style = ELEMENT_FACTS[name].label, ELEMENT_STYLES[name]
         style = style | {
             "markersize": 3.2,
             "markevery": -(-len(line["s"]) // MOST_MARKERS),
@@ -122,7 +123,7 @@ def _draw_critical_points(upper, lower, lines):
     """A line through both panels in the style of the element, and a point on the obstacle."""
     label = "critical point"
     for name, line in lines.items():
-        colour = ELEMENTS[name][1]["color"]
+        colour = ELEMENT_STYLES[name]["color"]
         style = {"color": colour, "linewidth": 0.5, "linestyle": (0, (1, 2)), "zorder": 1.5}
         marker = CRITICAL | {"markeredgecolor": colour}
         at = line["critical"][~np.isnan(line["critical"])]

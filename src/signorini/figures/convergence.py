@@ -4,25 +4,11 @@ import math
 
 import matplotlib
 
-from signorini.figures.style import ACCENT, BLACK, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.errors.norms import NORMS
+from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.figures.style import ELEMENT_STYLES, GREY, STYLE, TEXT_WIDTH, new_figure
 
-NORMS = {  # a norm that is not here goes by its own name
-    "l2": "$L^2$ error",
-    "h1": "$H^1$ error",
-    "h1_semi": "broken $H^1$ seminorm of the error",
-    "energy": "error in the energy norm",
-    "trace_l2": r"$L^2(\Gamma_C)$ error of $u$",
-    "multiplier_l2": r"$L^2(\Gamma_C)$ error of $k\,\mathrm{d}u/\mathrm{d}\nu$",
-    "critical_points": "distance of the critical points",
-}
 ORDERS = {"l2": 2}  # of the theory, and of the slope triangle; of any other norm 1
-ELEMENTS = {
-    "P1": (
-        "CF (P1)",
-        {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"},
-    ),
-    "CR": ("NCF (CR)", {"color": ACCENT, "marker": "s", "linestyle": (0, (4, 2))}),
-}
 MOST_TICKS = 7
 
 
@@ -35,7 +21,7 @@ def draw_convergence(errors, norm, slopes=None):
     errors : sequence of mapping
         Rows of ``errors.csv``: ``element``, ``n``, ``h`` and the column `norm`, as text or numbers.
     norm : str
-        A column of `errors`; those of `NORMS` have a name in words.
+        A column of `errors`; one that is not in `errors.norms.NORMS` goes by its own name.
     slopes : mapping of str to float, optional
         The average slope of each element, named in the legend.
 
@@ -56,12 +42,13 @@ def draw_convergence(errors, norm, slopes=None):
     ]
     names = dict.fromkeys(row["element"] for row in errors)
     for name in names:
-        if name not in ELEMENTS:
-            raise ValueError(f"no style for the element {name!r}; known: {', '.join(ELEMENTS)}")
+        if name not in ELEMENT_STYLES:
+            known = ", ".join(ELEMENT_STYLES)
+            raise ValueError(f"no style for the element {name!r}; known: {known}")
     figure = new_figure(0.49 * TEXT_WIDTH, 0.43 * TEXT_WIDTH)
     axes = figure.add_axes((0.205, 0.16, 0.775, 0.805), xscale="log", yscale="log")
     for name in names:
-        label, style = ELEMENTS[name]
+        label, style = ELEMENT_FACTS[name].label, ELEMENT_STYLES[name]
         if slopes and slopes.get(name) not in (None, ""):
             label += f", slope {float(slopes[name]):.2f}"
         rows = [row for row in errors if row["element"] == name]
@@ -71,7 +58,8 @@ def draw_convergence(errors, norm, slopes=None):
     _set_limits(axes, [float(row["h"]) for row in errors], [float(row[norm]) for row in errors])
     _label_levels(axes, {int(row["n"]): float(row["h"]) for row in errors})
     _draw_triangle(axes, _lowest(errors, norm), ORDERS.get(norm, 1))
-    axes.set(xlabel="mesh width $h$", ylabel=NORMS.get(norm, norm.replace("_", " ")))
+    title = NORMS[norm].axis if norm in NORMS else norm.replace("_", " ")
+    axes.set(xlabel="mesh width $h$", ylabel=title)
     axes.legend(loc="upper left", handlelength=2.6, borderaxespad=0.2)
     return figure
 

@@ -4,7 +4,18 @@ import math
 
 import matplotlib
 
-from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.errors.norms import NORMS
+from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.figures.style import (
+    ACCENT,
+    BLACK,
+    ELEMENT_STYLES,
+    FAINT,
+    GREY,
+    STYLE,
+    TEXT_WIDTH,
+    new_figure,
+)
 
 SMALL = STYLE | {
     "font.size": 7,
@@ -13,10 +24,10 @@ SMALL = STYLE | {
     "ytick.labelsize": 7,
     "legend.fontsize": 6.5,
 }
-MARKERS = {"P1": "o", "CR": "s"}
-COLOURS = {"P1": BLACK, "CR": ACCENT}
-NORMS = {"l2": "$L^2$", "h1_semi": "$H^1$ seminorm"}
-NAMES = {"P1": "CF (P1)", "CR": "NCF (CR)"}
+MARKERS = {element: style["marker"] for element, style in ELEMENT_STYLES.items()}
+COLOURS = {element: style["color"] for element, style in ELEMENT_STYLES.items()}
+NAMES = {element: facts.label for element, facts in ELEMENT_FACTS.items()}
+TITLES = {norm: NORMS[norm].symbol for norm in ("l2", "h1_semi")}  # of the norms that are drawn
 EPS = 2.0**-52
 
 
@@ -164,7 +175,7 @@ def draw_floor(errors, lines):
     matplotlib.figure.Figure
     """
     figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
-    for k, (norm, title) in enumerate(NORMS.items()):
+    for k, (norm, title) in enumerate(TITLES.items()):
         axes = figure.add_axes((0.085 + 0.5 * k, 0.14, 0.405, 0.76), xscale="log", yscale="log")
         for element in COLOURS:
             style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}

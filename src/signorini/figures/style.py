@@ -17,6 +17,12 @@ TEXT_WIDTH = (
 BLACK, GREY, FAINT = "black", "0.35", "0.75"
 ACCENT = "#2a6ebb"  # prints as a middle grey
 
+# How each element is drawn; what a legend calls it is `fem.element_facts.ElementFacts.label`.
+ELEMENT_STYLES = {
+    "P1": {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"},
+    "CR": {"color": ACCENT, "marker": "s", "linestyle": (0, (4, 2))},
+}
+
 STYLE = {
     "font.family": "serif",
     "font.serif": ["cmr10"],

@@ -1,3 +1,1 @@
-"""Triangulations with named boundaries: uniform grids as arithmetic, anything else through
-scikit-fem.
-"""
+"""Triangulations with a labelled boundary: uniform grids by arithmetic, others through files."""

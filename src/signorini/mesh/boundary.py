@@ -5,24 +5,26 @@ SIDES = ("bottom", "right", "top", "left")  # the parts of a rectangle's boundar
 
 
 def by_formula(boundary):
-    """Whether the section ``boundary`` maps labels to formulas, rather than names of parts to
-    labels.
+    """Whether the section ``boundary`` maps labels to formulas, not names of parts to labels.
 
-    A label is no formula: where every value is one, the keys are names of parts, whatever they
-    read.
+    A label is no formula: where every value is a label, the keys are names of parts, whatever
+    they read.
 
     Examples
     --------
     >>> by_formula({"contact": "0.5 - y", "neumann": "rest"})
     True
-    >>> by_formula({"contact": "contact", "neumann": "dirichlet"})  # groups of a mesh file with such names
+
+    A mesh file may have groups that are named as labels are:
+
+    >>> by_formula({"contact": "contact", "neumann": "dirichlet"})
     False
     """
-    return any(name in LABELS for name in boundary) and not all(
-        value in LABELS for value in boundary.values()
-    )
+    some_key_is_a_label = any(name in LABELS for name in boundary)
+    every_value_is_a_label = all(value in LABELS for value in boundary.values())
+    return some_key_is_a_label and not every_value_is_a_label
 
 
 def labels_of(boundary):
-    """The labels that the section ``boundary`` gives to some part of the boundary, a set."""
+    """The set of labels that the section ``boundary`` gives to some part of the boundary."""
     return set(boundary) if by_formula(boundary) else set(boundary.values())

@@ -1,13 +1,11 @@
-"""Which files a mesh file stands for; known before it is read, with no more than the standard
-library.
-"""
+"""Which files a mesh file stands for, known before it is read; standard library only."""
 
 import html
 import re
 from pathlib import Path
 
-# Of an .xdmf, which keeps arrays in HDF5 files beside it: <DataItem
-# Format="HDF">mesh.h5:/points</DataItem>
+# Of an .xdmf, which keeps arrays in HDF5 files beside it:
+# <DataItem Format="HDF">mesh.h5:/points</DataItem>
 _REFERENCE = re.compile(r"[>\[]\s*(\w[\w.-]*)\s*:")
 
 
@@ -32,13 +30,13 @@ def files_read(path):
 
 
 def _named_within(path):
-    text = html.unescape(
-        path.read_bytes().replace(b"\0", b"").decode("utf-8", "replace")
-    )  # without UTF-16's zeros
+    """Files that an .xdmf may name; without the zeros that UTF-16 puts between characters."""
+    text = html.unescape(path.read_bytes().replace(b"\0", b"").decode("utf-8", "replace"))
     return {path.with_name(name) for name in _REFERENCE.findall(text)}
 
 
 def _functions_beside(path):
+    """Files that may hold mesh functions of a DOLFIN mesh."""
     return {
         other
         for other in path.parent.iterdir()

@@ -1,6 +1,4 @@
-"""Meshes from files: whatever meshio reads, triangles in a plane, with the boundary named by the
-file's groups.
-"""
+"""Meshes from files that meshio reads: plane triangles, the boundary named by the file's groups."""
 
 import json
 import re
@@ -12,10 +10,10 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_triangulation
 from signorini.mesh.labels import NamedMesh, labelled
-from signorini.mesh.sandbox import run_apart
+from signorini.mesh.sandbox import run_in_sandbox
 
 MAX_BYTES = 2**28
-_PLANE = 1e-12
+_PLANE = 1e-12  # relative to the extent: how far z may vary in a plane mesh
 _PLAIN = re.compile(r"[\w.+@ /-]{1,500}")
 
 
@@ -38,6 +36,13 @@ def read_mesh(path, groups):
     ------
     MeshError
         As `import_mesh` and `labels.label_boundary`.
+
+    Examples
+    --------
+    >>> groups = {"foundation": "contact", "free": "neumann", "clamped": "dirichlet"}
+    >>> mesh = read_mesh("config/meshes/gasket.msh", groups)
+    >>> mesh.ends.keys() == {"contact", "neumann", "dirichlet"}
+    True
     """
     return labelled(import_mesh(path), groups)
 
@@ -67,9 +72,10 @@ def import_mesh(path, limit=MAX_BYTES):
         If the file is missing, too large, damaged, hostile, or not a triangulation.
 
     Notes
-    ----- The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times
-    the file's size, for 30 s and 2 s per MB; what is compressed may hold 64 MiB and 50 times the
-    file's size.
+    -----
+    The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times the
+    file's size, for 30 s and 2 s per MB; what is compressed may hold 64 MiB and 50 times the file's
+    size.
     """
     path = Path(path)
     size = _regular_size(path)
@@ -77,24 +83,14 @@ def import_mesh(path, limit=MAX_BYTES):
         raise MeshError(
             f"{path.name}: {size} bytes, more than {limit}; coarsen the mesh, levels refine it"
         )
-    raw = run_apart(
+    raw = run_in_sandbox(
         "signorini.mesh.parse:parse",
         str(path.absolute()),
-        memory=2**31 + 50 * size,
-        seconds=30 + 2e-6 * size,
-        what=path.name,
+        memory_limit=2**31 + 50 * size,
+        timeout=30 + 2e-6 * size,
+        task=path.name,
     )
-    points = _plane(path, raw["points"])
-    p, t, vertex_map = check_triangulation(points, raw["triangle"].T, path.name)
-    lines = raw["line"].T
-    if lines.size and (lines.min() < 0 or lines.max() >= vertex_map.size):
-        raise MeshError(
-            f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}"
-        )
-    names = json.loads(str(raw["names"]))
-    parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
-    regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
-    return NamedMesh(p, t, parts, regions, path.name, names["note"])
+    return _named_mesh(path, raw)
 
 
 def resolve_mesh_path(path, root, base=None):
@@ -122,7 +118,8 @@ def resolve_mesh_path(path, root, base=None):
     """
     if not isinstance(path, str) or not _PLAIN.fullmatch(path) or path != path.strip():
         raise MeshError(
-            f"domain.file: {str(path)[:80]!r} is not valid; use up to 500 letters, digits and . _ + - @ /"
+            f"domain.file: {str(path)[:80]!r} is not valid; "
+            "use up to 500 letters, digits and . _ + - @ /"
         )
     root = Path(root).resolve()
     try:
@@ -137,6 +134,21 @@ def resolve_mesh_path(path, root, base=None):
         )
     _regular_size(resolved)
     return resolved
+
+
+def _named_mesh(path, raw):
+    """Check what `parse` found in a file."""
+    points = _plane(path, raw["points"])
+    p, t, vertex_map = check_triangulation(points, raw["triangle"].T, path.name)
+    lines = raw["line"].T
+    if lines.size and (lines.min() < 0 or lines.max() >= vertex_map.size):
+        raise MeshError(
+            f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}"
+        )
+    names = json.loads(str(raw["names"]))
+    parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
+    regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
+    return NamedMesh(p, t, parts, regions, path.name, names["note"])
 
 
 def _regular_size(path):
@@ -165,10 +177,11 @@ def _plane(path, points):
             f"{path.name}: points have shape {points.shape}; give two or three coordinates each"
         )
     p, z = points.T[:2], points.T[2:]
-    bent = (z != z[:, :1]).ravel()
-    if bent.any() and not np.ptp(z) <= _PLANE * np.ptp(p):
-        k = int(np.argmax(bent))
+    elsewhere = (z != z[:, :1]).ravel()
+    if elsewhere.any() and not np.ptp(z) <= _PLANE * np.ptp(p):
+        k = int(np.argmax(elsewhere))
         raise MeshError(
-            f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; the mesh must be plane"
+            f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; "
+            "the mesh must be plane"
         )
     return p

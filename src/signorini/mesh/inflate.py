@@ -1,6 +1,4 @@
-"""Compressed mesh files: how much they may hold once decompressed, counted while it happens or
-before.
-"""
+"""Compressed mesh files: a limit on what they decompress to, counted while or before it happens."""
 
 import contextlib
 import lzma
@@ -12,14 +10,15 @@ HDF5 = (".med", ".h5m", ".hmf", ".cgns", ".h5", ".hdf5", ".hdf", ".nc", ".e", ".
 
 
 def most(size):
-    """Bytes that `size` bytes of a file may decompress to; meshes of two million cells came to 13
-    times their size.
+    """Bytes that `size` bytes of a file may decompress to.
+
+    Meshes of two million cells came to 13 times their size.
     """
     return 2**26 + 50 * size
 
 
 class Counted:
-    """A stand-in for the modules zlib and lzma that stops at a limit on all that it decompresses.
+    """A stand-in for the modules zlib and lzma that limits all that it decompresses.
 
     Parameters
     ----------
@@ -27,28 +26,32 @@ class Counted:
         ``zlib.decompressobj`` or ``lzma.LZMADecompressor``.
     limit : int
         Bytes.
-
-    Raises
-    ------
-    MeshError
-        From `decompress`, before more than `limit` bytes are held.
     """
 
     def __init__(self, start, limit):
         self._start, self.left = start, limit
 
     def decompress(self, data):
-        """The decompressed data."""
-        found = self._start().decompress(data, self.left + 1)
-        self.left -= len(found)
+        """The decompressed data.
+
+        Raises
+        ------
+        MeshError
+            Before more than the limit is held, all calls together.
+        """
+        decompressed = self._start().decompress(data, self.left + 1)
+        self.left -= len(decompressed)
         if self.left < 0:
             raise MeshError(too_much())
-        return found
+        return decompressed
 
 
 def too_much():
-    """What is said of a bomb."""
-    return "asks for more memory than its size explains, once decompressed; write the file anew, uncompressed"
+    """What is said of a decompression bomb."""
+    return (
+        "asks for more memory than its size explains, once decompressed; "
+        "write the file anew, uncompressed"
+    )
 
 
 @contextlib.contextmanager
@@ -57,7 +60,8 @@ def counted_vtu(limit):
     from meshio.vtu import _vtu
 
     kept = _vtu.zlib, _vtu.lzma
-    _vtu.zlib, _vtu.lzma = Counted(zlib.decompressobj, limit), Counted(lzma.LZMADecompressor, limit)
+    _vtu.zlib = Counted(zlib.decompressobj, limit)
+    _vtu.lzma = Counted(lzma.LZMADecompressor, limit)
     try:
         yield
     finally:
@@ -91,7 +95,7 @@ def check_hdf5(path, limit):
 
 
 def _datasets(file):
-    """Every array of a file, once."""
+    """Every array of a file, once, though its groups may hold one another."""
     import h5py
 
     seen, waiting = set(), [file]

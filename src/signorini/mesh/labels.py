@@ -1,6 +1,4 @@
-"""What holds where on the boundary: labels given to whole parts of it, by name or by the sign of a
-formula.
-"""
+"""What holds where on the boundary: labels by the names of parts or by the sign of a formula."""
 
 import difflib
 from dataclasses import dataclass, field, replace
@@ -11,10 +9,14 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import LABELS, SIDES
 from signorini.mesh.facets import pair_keys, unique_facets
+from signorini.mesh.geometry import cross, point_text
 from signorini.mesh.triangulation import Triangulation
 from signorini.wording import listed
 
-_SHOWN = 5
+_FACETS_SHOWN = 5
+_PARTS_SHOWN = 20
+_RULES_SHOWN = 4
+_LONGEST_NAME = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,27 +75,26 @@ class NamedMesh:
             u, v = corners[k - 2] - corners[k], corners[k - 1] - corners[k]
             scale = np.abs([u, v]).max()
             u, v = u / scale, v / scale
-            angle = np.arctan2(np.abs(u[0] * v[1] - u[1] * v[0]), (u * v).sum(axis=0))
+            angle = np.arctan2(np.abs(cross(u, v)), (u * v).sum(axis=0))
             smallest = min(smallest, float(angle.min()))
         return np.degrees(smallest)
 
 
 def with_sides(mesh):
-    """Add the parts ``bottom``, ``right``, ``top`` and ``left``: facets on the sides of the
-    bounding box.
+    """Add the parts ``bottom``, ``right``, ``top``, ``left``: facets on the bounding box's sides.
 
     Both ends of a facet must have the extreme coordinate, exactly: no tolerance, whatever the
     scale.
     """
     ends = mesh.facets[:, mesh.boundary]
     (x0, y0), (x1, y1) = mesh.p.min(axis=1), mesh.p.max(axis=1)
-    on = {
+    vertex_on = {
         "bottom": mesh.p[1] == y0,
         "right": mesh.p[0] == x1,
         "top": mesh.p[1] == y1,
         "left": mesh.p[0] == x0,
     }
-    sides = {side: ends[:, on[side][ends].all(axis=0)] for side in SIDES}
+    sides = {side: ends[:, vertex_on[side][ends].all(axis=0)] for side in SIDES}
     return replace(mesh, parts=sides | mesh.parts)
 
 
@@ -127,107 +128,152 @@ def label_boundary(mesh, rules):
     >>> [(label, facets.size) for label, facets in label_boundary(mesh, rules).items()]
     [('contact', 2), ('dirichlet', 2), ('neumann', 2)]
     """
-    labels, taken = {}, []
+    selections = []
     for selector, label in rules.items() if isinstance(rules, dict) else rules:
-        if label not in LABELS:
-            known = ", ".join(LABELS)
-            raise MeshError(
-                f"boundary: unknown label {_quoted(str(label))} for {_named(selector)}; known: {known}"
-            )
-        selected = (
-            _by_formula(mesh, selector) if callable(selector) else _by_part(mesh, str(selector))
-        )
-        labels[label] = labels.get(label, False) | selected
-        taken.append((selector, label, selected))
-    times = np.sum([np.zeros(mesh.boundary.size, dtype=int), *labels.values()], axis=0)
-    if np.any(times == 0):
-        raise MeshError(_complaint(mesh, times == 0, "no label"))
-    if np.any(times > 1):
-        raise MeshError(
-            _complaint(
-                mesh, times > 1, "more than one label", _overlap(taken, int(np.argmax(times > 1)))
-            )
-        )
-    return {label: mesh.boundary[selected] for label, selected in labels.items()}
+        _check_label(selector, label)
+        selections.append((selector, label, _selected(mesh, selector)))
+    carries = {}
+    for _, label, selected in selections:
+        carries[label] = carries.get(label, False) | selected
+    _check_each_once(mesh, carries, selections)
+    return {label: mesh.boundary[selected] for label, selected in carries.items()}
 
 
 def labelled(mesh, rules):
-    """The `Triangulation` of a mesh whose boundary is labelled by rules; see `label_boundary`."""
+    """The `Triangulation` of a mesh whose boundary is labelled.
+
+    Parameters
+    ----------
+    mesh : NamedMesh
+    rules : dict, or iterable of pairs (selector, label)
+        See `label_boundary`, also for what is raised.
+
+    Returns
+    -------
+    Triangulation
+    """
     return Triangulation(mesh.p, mesh.t, labelled_ends(mesh, rules), mesh.regions)
 
 
 def labelled_ends(mesh, rules):
-    """As `label_boundary`, but for each label the end vertices of its facets, shape (2, k)."""
+    """As `label_boundary`, but with the end vertices of the facets.
+
+    Parameters
+    ----------
+    mesh : NamedMesh
+    rules : dict, or iterable of pairs (selector, label)
+        See `label_boundary`, also for what is raised.
+
+    Returns
+    -------
+    dict of str to ndarray of int, shape (2, k)
+    """
     return {label: mesh.facets[:, facets] for label, facets in label_boundary(mesh, rules).items()}
 
 
-def _by_formula(mesh, formula):
+def _check_label(selector, label):
+    if label not in LABELS:
+        raise MeshError(
+            f"boundary: unknown label {_quoted(str(label))} for {_rule_text(selector)}; "
+            f"known: {', '.join(LABELS)}"
+        )
+
+
+def _selected(mesh, selector):
+    """Whether a rule selects each boundary facet, shape (nb,)."""
+    if callable(selector):
+        return _selected_by_formula(mesh, selector)
+    return _selected_by_part(mesh, str(selector))
+
+
+def _selected_by_formula(mesh, formula):
     selected = np.asarray(formula(*mesh.midpoints)) > 0
     if not np.any(selected):
         raise MeshError(
-            f"boundary: {_named(formula)} is positive at no boundary facet's midpoint; correct or drop it"
+            f"boundary: {_rule_text(formula)} is positive at no boundary facet's midpoint; "
+            "correct or drop it"
         )
     return np.broadcast_to(selected, mesh.boundary.shape)
 
 
-def _by_part(mesh, name):
+def _selected_by_part(mesh, name):
     if name not in mesh.parts:
         raise MeshError(
-            f"boundary: {mesh.source} has no part {_quoted(name)}; {_missing(mesh, name)}"
+            f"boundary: {mesh.source} has no part {_quoted(name)}; {_known_parts(mesh, name)}"
         )
     count = mesh.p.shape[1]
-    keys, part = pair_keys(mesh.facets, count), mesh.parts[name]
-    wanted = np.where(part.min(axis=0) >= 0, pair_keys(part, count), -1)
-    found = np.isin(wanted, keys[mesh.boundary])
-    if not found.all():
-        k = np.argmin(found)
-        ends = (
-            [f"({x:.6g}, {y:.6g})" for x, y in mesh.p[:, mesh.parts[name][:, k]].T]
-            if wanted[k] >= 0
-            else ["a vertex", "another"]
+    facet_keys, part = pair_keys(mesh.facets, count), mesh.parts[name]
+    # A dropped vertex has the number -1.
+    part_keys = np.where(part.min(axis=0) >= 0, pair_keys(part, count), -1)
+    on_boundary = np.isin(part_keys, facet_keys[mesh.boundary])
+    if not on_boundary.all():
+        k = np.argmin(on_boundary)
+        ends = [point_text(mesh.p, v) for v in part[:, k]] if part_keys[k] >= 0 else _UNKNOWN_ENDS
+        inside = part_keys[k] in facet_keys
+        why = "lies inside the domain" if inside else "is no side of a triangle"
+        raise MeshError(
+            f"boundary: part {_quoted(name)}: the line {ends[0]} to {ends[1]} {why}; "
+            "take it out of the part"
         )
-        why = "lies inside the domain" if wanted[k] in keys else "is no side of a triangle"
-        line = f"the line {ends[0]} to {ends[1]}"
-        raise MeshError(f"boundary: part {_quoted(name)}: {line} {why}; take it out of the part")
-    return np.isin(keys[mesh.boundary], wanted)
+    return np.isin(facet_keys[mesh.boundary], part_keys)
 
 
-def _missing(mesh, name):
+_UNKNOWN_ENDS = ("a vertex", "another")
+
+
+def _known_parts(mesh, name):
     """Which parts there are instead of the one that is asked for."""
     if mesh.note:
         return mesh.note
     near = [part for part in (f"name={name}", f"number={name}") if part in mesh.parts]
     near = near or difflib.get_close_matches(name[:200], mesh.parts, n=1)
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    formula = (
-        f"; or give {name} a formula, and every other label one"
-        if name in LABELS and not near
-        else ""
-    )
-    return f"its parts: {listed(mesh.parts) or 'none'}{hint}{formula}"
+    known = f"its parts: {listed(mesh.parts) or 'none'}"
+    if near:
+        return f"{known}; did you mean {' or '.join(near)}?"
+    if name in LABELS:
+        return f"{known}; or give {name} a formula, and every other label one"
+    return known
 
 
-def _overlap(taken, k):
+def _check_each_once(mesh, carries, selections):
+    """Refuse boundary facets without label or with two; `carries` is label -> its facets."""
+    times = np.sum([np.zeros(mesh.boundary.size, dtype=int), *carries.values()], axis=0)
+    if np.any(times == 0):
+        raise MeshError(_complaint(mesh, times == 0, "no label"))
+    several = times > 1
+    if np.any(several):
+        overlap = _overlap(selections, int(np.argmax(several)))
+        raise MeshError(_complaint(mesh, several, "more than one label", overlap))
+
+
+def _overlap(selections, k):
     """The rules that give different labels to one facet of the boundary, by its position there."""
-    given = [f"{_named(selector)} is {label}" for selector, label, selected in taken if selected[k]]
-    return f"; they overlap: at the first, {' and '.join(given[:4])}"
+    rules = [
+        f"{_rule_text(selector)} is {label}"
+        for selector, label, selected in selections
+        if selected[k]
+    ]
+    return f"; they overlap: at the first, {' and '.join(rules[:_RULES_SHOWN])}"
 
 
 def _complaint(mesh, wrong, count, why=""):
     numbers, (x, y) = mesh.boundary[wrong], mesh.midpoints[:, wrong]
-    places = list(zip(numbers, x, y, strict=True))[:_SHOWN]
+    places = list(zip(numbers, x, y, strict=True))[:_FACETS_SHOWN]
     facets = ", ".join(f"{k} at ({a:.6g}, {b:.6g})" for k, a, b in places)
-    more = f" and {numbers.size - _SHOWN} more" if numbers.size > _SHOWN else ""
-    parts = f"; parts: {listed(mesh.parts, 20)}" if mesh.parts else ""
-    wrong = f"{numbers.size} boundary facets of {mesh.source} have {count}"
-    return f"boundary: {wrong}: facet {facets}{more}{why}; each needs exactly one of {', '.join(LABELS)}{parts}"
+    hidden = numbers.size - _FACETS_SHOWN
+    more = f" and {hidden} more" if hidden > 0 else ""
+    parts = f"; parts: {listed(mesh.parts, _PARTS_SHOWN)}" if mesh.parts else ""
+    return (
+        f"boundary: {numbers.size} boundary facets of {mesh.source} have {count}: "
+        f"facet {facets}{more}{why}; each needs exactly one of {', '.join(LABELS)}{parts}"
+    )
 
 
-def _named(selector):
+def _rule_text(selector):
     if callable(selector):
         return f"the formula {_quoted(getattr(selector, 'text', str(selector)))}"
     return f"part {_quoted(str(selector))}"
 
 
 def _quoted(text):
-    return repr(text if len(text) <= 60 else f"{text[:57]}...")
+    return repr(text if len(text) <= _LONGEST_NAME else f"{text[: _LONGEST_NAME - 3]}...")

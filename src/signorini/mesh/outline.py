@@ -1,20 +1,15 @@
-"""Closed outlines: does a set of directed segments bound a region of the plane, once and without
-crossings?
-"""
+"""Closed outlines: do directed segments bound a region, once and without crossings?"""
 
 import numpy as np
+
+from signorini.mesh.geometry import cross
 
 # A vertex nearer to a segment than this part of its length lies on it.
 ON_SEGMENT = 1e-9
 MAX_LOOPS = 1000
 MAX_PAIRS = 50_000_000
-_CHUNK = 1_000_000
-_ANGLES = (0.6180, 1.4142, 2.2361, 2.8284)
-
-
-def cross(u, v):
-    """Cross product of plane vectors, shapes (2, ...)."""
-    return u[0] * v[1] - u[1] * v[0]
+_PAIRS_AT_ONCE = 1_000_000
+_ANGLES = (0.6180, 1.4142, 2.2361, 2.8284)  # of lines that shadows are cast on, in no special place
 
 
 def outline_defect(q, edges, resolution=0.0):
@@ -39,10 +34,20 @@ def outline_defect(q, edges, resolution=0.0):
         number)``: more than `MAX_LOOPS` loops, or `MAX_PAIRS` pairs to test. None if all is well.
 
     Notes
-    ----- Where no two segments meet except at common ends, the number of times the left of a
-    segment is covered changes only at points where more than two segments meet; there the
-    directions must alternate. It remains to look at one segment per closed path: its left must have
-    winding number 1. O(n log n) but for the pairs of segments whose shadows on a line overlap.
+    -----
+    Where no two segments meet except at common ends, the number of times the left of a segment is
+    covered changes only at points where more than two segments meet; there the directions must
+    alternate. It remains to look at one segment per closed path: its left must have winding
+    number 1. O(n log n) but for the pairs of segments whose shadows on a line overlap.
+
+    Examples
+    --------
+    A square passes. Its sides in the order of a figure of eight cross:
+
+    >>> square = np.array([[0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0]])
+    >>> outline_defect(square, np.array([[0, 1, 2, 3], [1, 2, 3, 0]]))
+    >>> outline_defect(square, np.array([[0, 2, 1, 3], [2, 1, 3, 0]]))
+    ('cross', 0, 2)
     """
     samples = _samples(q, edges)
     if samples.size > MAX_LOOPS:
@@ -58,58 +63,63 @@ def _meeting(q, edges, resolution):
     while start < order.size:
         if ends[start] > MAX_PAIRS:
             return "intricate", int(ends[-1])
-        stop = max(start + 1, int(np.searchsorted(ends, ends[start] - partners[start] + _CHUNK)))
+        within = ends[start] - partners[start] + _PAIRS_AT_ONCE
+        stop = max(start + 1, int(np.searchsorted(ends, within)))
+        # Segment k, in the order of shadows, is paired with the partners[k] segments after it.
         counts = partners[start:stop]
         first = np.repeat(np.arange(start, stop), counts)
         offset = np.arange(first.size) - np.repeat(np.cumsum(counts) - counts, counts)
-        found = _first_meeting(q, edges, order[first], order[first + 1 + offset], resolution)
-        if found:
-            return found
+        pairs = order[first], order[first + 1 + offset]
+        defect = _touch(q, edges, *pairs, resolution) or _crossing(q, edges, *pairs)
+        if defect:
+            return defect
         start = stop
     return None
 
 
 def _shadows(q, edges):
-    """Segments in the order of their shadows on a line, and how many of the following ones each
-    overlaps.
+    """Segments in the order of their shadows on a line, and how many next ones each overlaps.
+
+    Only segments whose shadows overlap can meet. Of a few lines the one with fewest such pairs is
+    taken.
     """
     best = None
     for angle in _ANGLES:
         shadow = (np.cos(angle) * q[0] + np.sin(angle) * q[1])[edges]
         low, high = shadow.min(axis=0), shadow.max(axis=0) + ON_SEGMENT
         order = np.argsort(low, kind="stable")
-        partners = (
-            np.searchsorted(low[order], high[order], side="right") - np.arange(order.size) - 1
-        )
+        reached = np.searchsorted(low[order], high[order], side="right")
+        partners = reached - np.arange(order.size) - 1
         if best is None or partners.sum() < best[1].sum():
             best = order, np.maximum(partners, 0)
     return best
 
 
-def _first_meeting(q, edges, i, j, resolution):
-    """Test the pairs of segments (i, j)."""
+def _touch(q, edges, i, j, resolution):
+    """The first point of one segment inside the other, of pairs of segments (i, j)."""
     (a, b), (c, d) = edges[:, i], edges[:, j]
-    for point, (start, end), owner in (
-        (c, (a, b), i),
-        (d, (a, b), i),
-        (a, (c, d), j),
-        (b, (c, d), j),
-    ):
+    for point, start, end, owner in ((c, a, b, i), (d, a, b, i), (a, c, d, j), (b, c, d, j)):
         along, away = q[:, end] - q[:, start], q[:, point] - q[:, start]
         square = (along**2).sum(axis=0)
         position = (along * away).sum(axis=0)
-        near = np.abs(cross(along, away)) <= np.maximum(
-            ON_SEGMENT * square, resolution * np.sqrt(square)
-        )
-        on = near & (position > 0) & (position < square) & (point != start) & (point != end)
-        if on.any():
-            k = np.argmax(on)
+        tolerance = np.maximum(ON_SEGMENT * square, resolution * np.sqrt(square))
+        near = np.abs(cross(along, away)) <= tolerance
+        between = (position > 0) & (position < square)
+        inside = near & between & (point != start) & (point != end)
+        if inside.any():
+            k = np.argmax(inside)
             return "touch", int(point[k]), int(owner[k])
+    return None
+
+
+def _crossing(q, edges, i, j):
+    """The first pair of segments (i, j) without common end of which each separates the other's."""
+    (a, b), (c, d) = edges[:, i], edges[:, j]
     ab, cd = q[:, b] - q[:, a], q[:, d] - q[:, c]
     apart = (a != c) & (a != d) & (b != c) & (b != d)
-    sides = cross(ab, q[:, c] - q[:, a]) > 0, cross(ab, q[:, d] - q[:, a]) > 0
-    others = cross(cd, q[:, a] - q[:, c]) > 0, cross(cd, q[:, b] - q[:, c]) > 0
-    crossing = apart & (sides[0] != sides[1]) & (others[0] != others[1])
+    c_on_left, d_on_left = cross(ab, q[:, c] - q[:, a]) > 0, cross(ab, q[:, d] - q[:, a]) > 0
+    a_on_left, b_on_left = cross(cd, q[:, a] - q[:, c]) > 0, cross(cd, q[:, b] - q[:, c]) > 0
+    crossing = apart & (c_on_left != d_on_left) & (a_on_left != b_on_left)
     if crossing.any():
         k = np.argmax(crossing)
         return "cross", int(i[k]), int(j[k])
@@ -125,31 +135,40 @@ def _pinch(q, edges):
     if not several.size:
         return None
     away = q[:, far[several]] - q[:, at[several]]
-    order = several[np.lexsort([np.arctan2(away[1], away[0]), at[several]])]
-    leaving = order < edges.shape[1]
+    angles = np.arctan2(away[1], away[0])
+    order = several[np.lexsort([angles, at[several]])]
+    # Around each point the last segment is followed by the first.
     first = np.flatnonzero(np.diff(at[order], prepend=-1))
     following = np.arange(1, order.size + 1)
     following[np.append(first[1:], order.size) - 1] = first
+    leaving = order < edges.shape[1]
     wrong = leaving == leaving[following]
-    return ("overlap", int(order[np.argmax(wrong)] % edges.shape[1])) if wrong.any() else None
+    if not wrong.any():
+        return None
+    return "overlap", int(order[np.argmax(wrong)] % edges.shape[1])
 
 
 def _samples(q, edges):
     """The segment of each closed path that rises most."""
     path = _paths(edges)
-    rise = np.lexsort([q[1, edges[1]] - q[1, edges[0]], path])
-    return rise[np.append(np.flatnonzero(np.diff(path[rise])), rise.size - 1)]
+    by_rise = np.lexsort([q[1, edges[1]] - q[1, edges[0]], path])
+    last_of_path = np.append(np.flatnonzero(np.diff(path[by_rise])), by_rise.size - 1)
+    return by_rise[last_of_path]
 
 
 def _winding(q, edges, samples):
-    """The winding number on the left of each sample, a rising segment, must be 1."""
+    """The winding number on the left of each sample, a rising segment, must be 1.
+
+    Counted are the segments that cross the ray from the sample's middle to the right, upward ones
+    less downward ones.
+    """
     (x0, y0), (x1, y1) = q[:, edges[0]], q[:, edges[1]]
     for k in samples:
         x, y = 0.5 * (x0[k] + x1[k]), 0.5 * (y0[k] + y1[k])
         side = (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)
         upward = (y0 <= y) & (y < y1) & (side > 0)
         downward = (y1 <= y) & (y < y0) & (side < 0)
-        upward[k], downward[k] = True, False
+        upward[k], downward[k] = True, False  # the sample itself, whatever round-off says
         if np.count_nonzero(upward) - np.count_nonzero(downward) != 1:
             return "overlap", int(k)
     return None
@@ -160,6 +179,7 @@ def _paths(edges):
     follow = np.empty(edges.shape[1], dtype=np.int64)
     follow[np.argsort(edges[1], kind="stable")] = np.argsort(edges[0], kind="stable")
     path = np.arange(follow.size)
+    # Pointer doubling: after k rounds `path` is the least number among the next 2**k segments.
     for _ in range(max(1, int(follow.size).bit_length())):
         path = np.minimum(path, path[follow])
         follow = follow[follow]

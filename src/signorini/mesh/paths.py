@@ -1,14 +1,16 @@
-"""The boundary walked facet by facet: connected pieces of one label, in an order that no numbering
-decides.
+"""The boundary walked facet by facet: connected pieces of one label.
 
-A piece is walked from its end with the smaller (x, y); one that closes on itself counterclockwise
-from its smallest (x, y). Pieces follow one another by the (x, y) where they start.
+Their order is no numbering's. A piece is walked from its end with the smaller (x, y); one that
+closes on itself counterclockwise from its smallest (x, y). Pieces follow one another by the (x, y)
+where they start.
 """
 
 from collections import defaultdict
 from dataclasses import dataclass
 
 import numpy as np
+
+from signorini.mesh.geometry import cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +24,7 @@ class Path:
     facets : ndarray of int, shape (k,)
         Facet i joins vertices i and i + 1.
     points : ndarray, shape (2, k + 1)
-        Coordinates of the vertices.
+        Coordinates of the vertices, unit of length.
     """
 
     vertices: np.ndarray
@@ -36,7 +38,7 @@ class Path:
 
     @property
     def lengths(self):
-        """Lengths of the facets, shape (k,)."""
+        """Lengths of the facets, shape (k,), unit of length."""
         return np.hypot(*np.diff(self.points))
 
     @property
@@ -49,6 +51,10 @@ class Path:
         """Arc length of the marks from the start, shape (2 k + 1,), unit of length."""
         return _with_means(np.append(0.0, np.cumsum(self.lengths)))
 
+    def reversed(self):
+        """The same piece walked the other way."""
+        return Path(self.vertices[::-1], self.facets[::-1], self.points[:, ::-1])
+
 
 def _with_means(values):
     """Insert the mean of each two neighbours between them, along the last axis."""
@@ -59,7 +65,7 @@ def _with_means(values):
 
 
 def boundary_paths(mesh, label):
-    """Cut the part `label` of the boundary into paths, cut where three or more of its facets meet.
+    """Cut a part of the boundary into paths, where one or more than two of its facets meet.
 
     Parameters
     ----------
@@ -71,43 +77,53 @@ def boundary_paths(mesh, label):
     list of Path
         In the order and direction that the module's docstring says, whatever the numbering of the
         mesh.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> [path.points[:, 0].tolist() for path in boundary_paths(grid, "neumann")]
+    [[0.0, 0.0], [1.0, 0.0]]
     """
     facets, p = mesh.boundary_facets(label), mesh.p
-    around = defaultdict(list)
-    for facet, a, b in zip(facets.tolist(), *mesh.facets[:, facets].tolist(), strict=True):
-        around[a].append((facet, b))
-        around[b].append((facet, a))
+    around = _neighbours(facets, mesh.facets[:, facets])
     at = {vertex: (*p[:, vertex].tolist(),) for vertex in around}
     joints = {vertex for vertex, steps in around.items() if len(steps) != 2}
     used, paths = set(), []
+    # Joints come first: what is left after them are closed paths.
     for vertex in sorted(around, key=lambda v: (v not in joints, at[v])):
         for step in sorted(around[vertex], key=lambda step: at[step[1]]):
-            if step[0] not in used:
+            facet, _ = step
+            if facet not in used:
                 paths.append(_walk(p, around, joints, vertex, step, used))
     return sorted(paths, key=lambda path: at[path.vertices[0]])
 
 
+def _neighbours(facets, ends):
+    """Vertex -> the steps that lead on from it, pairs (facet, vertex at its other end)."""
+    around = defaultdict(list)
+    for facet, a, b in zip(facets.tolist(), *ends.tolist(), strict=True):
+        around[a].append((facet, b))
+        around[b].append((facet, a))
+    return around
+
+
 def _walk(p, around, joints, start, step, used):
-    """Follow facets that are not `used` from `start` to a joint, or round to where no facet is
-    left.
-    """
+    """Follow unused facets from `start` to a joint, or round to where no facet is left."""
     vertices, facets = [start], []
     while step:
         facet, vertex = step
         used.add(facet)
         facets.append(facet)
         vertices.append(vertex)
-        step = (
-            None
-            if vertex in joints
-            else next((s for s in around[vertex] if s[0] not in used), None)
-        )
+        steps = () if vertex in joints else around[vertex]
+        step = next((onward for onward in steps if onward[0] not in used), None)
     path = Path(np.array(vertices), np.array(facets), p[:, vertices])
-    if path.closed and _signed_area(path.points) < 0.0:
-        path = Path(path.vertices[::-1], path.facets[::-1], path.points[:, ::-1])
-    return path
+    clockwise = path.closed and _signed_area(path.points) < 0.0
+    return path.reversed() if clockwise else path
 
 
 def _signed_area(points):
-    x, y = points - points[:, :1]
-    return 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
+    from_first = points - points[:, :1]
+    return 0.5 * np.sum(cross(from_first[:, :-1], from_first[:, 1:]))

@@ -1,6 +1,4 @@
-"""Rectangles cut into triangles in other patterns than `Grid`, and meshes shaken or graded for
-studies.
-"""
+"""Rectangles cut in other patterns than `Grid`, and meshes perturbed or graded for studies."""
 
 from dataclasses import replace
 from functools import partial
@@ -9,9 +7,10 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import SIDES
-from signorini.mesh.check import check_resolution
-from signorini.mesh.grid import CORNERS
+from signorini.mesh.geometry import doubled_areas
 from signorini.mesh.labels import NamedMesh
+from signorini.mesh.lattice import CORNERS, Lattice
+from signorini.mesh.resolution import check_resolution
 
 
 def alternating(nx, ny, origin, size, first="falling"):
@@ -50,19 +49,41 @@ def alternating(nx, ny, origin, size, first="falling"):
 def criss_cross(nx, ny, origin, size):
     """Cut every cell of a rectangle by both diagonals into four triangles.
 
-    Parameters, result and errors as for `alternating`; the centres of the cells are numbered after
-    the corners.
+    Parameters
+    ----------
+    nx, ny : int
+        Cells along x and y.
+    origin, size : array_like, shape (2,)
+        Lower left corner and side lengths, in any unit of length.
+
+    Returns
+    -------
+    NamedMesh
+        As of `alternating`; the centres of the cells are numbered after the corners.
+
+    Raises
+    ------
+    MeshError
+        As `alternating`.
+
+    Examples
+    --------
+    >>> mesh = criss_cross(2, 1, (0, 0), (2, 1))
+    >>> mesh.p.shape, mesh.t.shape
+    ((2, 8), (3, 8))
     """
     p, numbers = _lattice(nx, ny, origin, size)
     x, y = p.reshape(2, ny + 1, nx + 1)
-    x, y = 0.5 * x[:-1, :-1] + 0.5 * x[:-1, 1:], 0.5 * y[:-1, :-1] + 0.5 * y[1:, :-1]
-    centre = p.shape[1] + np.arange(nx * ny).reshape(ny, nx)
+    x = 0.5 * x[:-1, :-1] + 0.5 * x[:-1, 1:]
+    y = 0.5 * y[:-1, :-1] + 0.5 * y[1:, :-1]
+    p = np.concatenate([p, [x.ravel(), y.ravel()]], axis=1)
+    # Each triangle holds two corners of its cell, one after the other round it, and the centre.
     ring = [numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]]
-    t = [np.concatenate([corner.ravel() for corner in ring[k:] + ring[:k]]) for k in (0, 1)]
-    t = np.stack([*t, np.tile(centre.ravel(), 4)])
-    return NamedMesh(
-        np.concatenate([p, [x.ravel(), y.ravel()]], axis=1), t, _sides(numbers), source="rectangle"
-    )
+    next_ring = ring[1:] + ring[:1]
+    centre = numbers.size + np.arange(nx * ny)
+    t = [np.concatenate([corner.ravel() for corner in corners]) for corners in (ring, next_ring)]
+    t = np.stack([*t, np.tile(centre, 4)])
+    return NamedMesh(p, t, _sides(numbers), source="rectangle")
 
 
 # By `domain.diagonal` of a scene.
@@ -98,11 +119,7 @@ def perturbed(mesh, amount, seed):
     """
     if not 0 <= amount < 1:
         raise MeshError(f"perturbation: amount {amount} is not in [0, 1); use for instance 0.5")
-    edges = mesh.p[:, mesh.t[[1, 2, 0]]] - mesh.p[:, mesh.t]
-    height = _doubled_areas(mesh.p, mesh.t) / np.sqrt((edges**2).sum(axis=0)).max(axis=0)
-    radius = np.full(mesh.p.shape[1], np.inf)
-    # NumPy 2.4's ufunc.at reads garbage where its operand is broadcast; give it equal shapes.
-    np.minimum.at(radius, mesh.t.ravel(), np.tile(0.5 * height, 3))
+    radius = _safe_radius(mesh)
     move = np.random.default_rng(seed).uniform(-1, 1, mesh.p.shape) * (amount * radius / np.sqrt(2))
     a, b = mesh.facets[:, mesh.boundary]
     for axis in (0, 1):
@@ -115,9 +132,21 @@ def perturbed(mesh, amount, seed):
     return replace(mesh, p=mesh.p + move)
 
 
+def _safe_radius(mesh):
+    """Half the least height of the triangles around each vertex, shape (nv,)."""
+    edges = mesh.p[:, mesh.t[[1, 2, 0]]] - mesh.p[:, mesh.t]
+    longest = np.sqrt((edges**2).sum(axis=0)).max(axis=0)
+    height = doubled_areas(mesh.p, mesh.t) / longest
+    radius = np.full(mesh.p.shape[1], np.inf)
+    # NumPy 2.4's ufunc.at reads garbage where its operand is broadcast; give it equal shapes.
+    np.minimum.at(radius, mesh.t.ravel(), np.tile(0.5 * height, 3))
+    return radius
+
+
 def graded(mesh, towards, exponent):
-    """Draw the vertices of a rectangle towards a side or a corner: distances s in [0, 1] become
-    s**exponent.
+    """Draw the vertices of a rectangle towards a side or a corner.
+
+    Distances s from the side, in units of the rectangle's extent, become s**exponent.
 
     Parameters
     ----------
@@ -140,52 +169,67 @@ def graded(mesh, towards, exponent):
         triangles without area.
     """
     towards = (towards,) if isinstance(towards, str) else tuple(towards)
-    axes = [SIDES.index(side) % 2 for side in towards if side in SIDES]
-    if len(axes) != len(towards) or len(set(axes)) != len(axes) or not axes:
-        raise MeshError(
-            f"grading: {', '.join(map(str, towards))!r} is no side or corner; sides: {', '.join(SIDES)}"
-        )
-    if not 1 <= exponent < np.inf:
-        raise MeshError(
-            f"grading: exponent {exponent} is below 1 or not finite; use for instance 2"
-        )
+    _check_grading(towards, exponent)
     lower, upper = mesh.p.min(axis=1), mesh.p.max(axis=1)
     if not _is_rectangle(mesh, lower, upper):
         raise MeshError(
-            f"grading: {mesh.source} is not a rectangle with sides {', '.join(SIDES)}; drop the grading"
+            f"grading: {mesh.source} is not a rectangle with sides {', '.join(SIDES)}; "
+            "drop the grading"
         )
     p = mesh.p.copy()
     for side in towards:
-        axis = 1 - SIDES.index(side) % 2
-        start, end = (
-            (lower[axis], upper[axis]) if side in ("bottom", "left") else (upper[axis], lower[axis])
-        )
+        axis = _axis_across(side)
+        start, end = lower[axis], upper[axis]
+        if side in ("right", "top"):
+            start, end = end, start
         inside = (p[axis] != start) & (p[axis] != end)
-        p[axis, inside] = (
-            start + (end - start) * ((p[axis, inside] - start) / (end - start)) ** exponent
-        )
-    if not (_doubled_areas(p, mesh.t) > 0).all():
+        distance = (p[axis, inside] - start) / (end - start)
+        p[axis, inside] = start + (end - start) * distance**exponent
+    if not (doubled_areas(p, mesh.t) > 0).all():
         raise MeshError(
             f"grading: exponent {exponent} leaves triangles without area; use a smaller one"
         )
     return NamedMesh(p, mesh.t, mesh.parts, mesh.regions, mesh.source)
 
 
+def _check_grading(towards, exponent):
+    axes = [_axis_across(side) for side in towards if side in SIDES]
+    if len(axes) != len(towards) or len(set(axes)) != len(axes) or not axes:
+        raise MeshError(
+            f"grading: {', '.join(map(str, towards))!r} is no side or corner; "
+            f"sides: {', '.join(SIDES)}"
+        )
+    if not 1 <= exponent < np.inf:
+        raise MeshError(
+            f"grading: exponent {exponent} is below 1 or not finite; use for instance 2"
+        )
+
+
+def _axis_across(side):
+    """The axis that a side is perpendicular to: 0 for left and right, 1 for bottom and top."""
+    return 1 - SIDES.index(side) % 2
+
+
+def _is_rectangle(mesh, lower, upper):
+    """Whether every boundary facet lies on a side of the bounding box, exactly."""
+    ends = mesh.p[:, mesh.facets[:, mesh.boundary]]
+    on = (ends == lower[:, None, None]).all(axis=1) | (ends == upper[:, None, None]).all(axis=1)
+    return set(SIDES) <= set(mesh.parts) and bool(on.any(axis=0).all())
+
+
 def _lattice(nx, ny, origin, size):
-    """Vertices of nx by ny cells, shape (2, nv), and their numbers, shape (ny + 1, nx + 1), as in
-    `Grid`.
-    """
+    """Vertices of nx by ny cells, shape (2, nv), and their numbers, shape (ny + 1, nx + 1)."""
     if nx < 1 or ny < 1:
         raise MeshError(f"pattern: {nx} by {ny} cells; use at least one each way")
     if not (np.isfinite([origin, size]).all() and min(size) > 0):
         raise MeshError(
-            f"pattern: origin {tuple(origin)}, size {tuple(size)} must be finite, and the size positive"
+            f"pattern: origin {tuple(origin)}, size {tuple(size)} must be finite, "
+            "and the size positive"
         )
     lower, upper = np.array(origin, dtype=float), np.add(origin, size)
     check_resolution(lower, upper, np.divide(size, (nx, ny)), "rectangle")
-    x, y = (origin[k] + size[k] * (np.arange(n + 1) / n) for k, n in enumerate((nx, ny)))
-    x, y = np.meshgrid(x, y)
-    return np.stack([x.ravel(), y.ravel()]), np.arange(x.size).reshape(x.shape)
+    lattice = Lattice(nx, ny, origin, size, "falling")
+    return lattice.p, lattice.vertex_numbers.astype(int)
 
 
 def _cells(numbers, cuts):
@@ -203,15 +247,3 @@ def _sides(numbers):
         "left": numbers[:, 0],
     }
     return {side: np.stack([lines[side][:-1], lines[side][1:]]) for side in SIDES}
-
-
-def _doubled_areas(p, t):
-    a, b, c = (p[:, v] for v in t)
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
-def _is_rectangle(mesh, lower, upper):
-    """Whether every boundary facet lies on a side of the bounding box, exactly."""
-    ends = mesh.p[:, mesh.facets[:, mesh.boundary]]
-    on = (ends == lower[:, None, None]).all(axis=1) | (ends == upper[:, None, None]).all(axis=1)
-    return set(SIDES) <= set(mesh.parts) and bool(on.any(axis=0).all())

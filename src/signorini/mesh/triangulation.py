@@ -1,5 +1,4 @@
-"""A triangulation of any polygonal domain, all of whose boundary is labelled, and its red
-refinements.
+"""A triangulation of any polygonal domain with a labelled boundary, and its red refinements.
 
 Vertices and facets are numbered as scikit-fem numbers them. Those of a refined mesh follow from its
 parent by arithmetic; only a mesh without parent searches for them.
@@ -10,17 +9,18 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.chunks import blocks
+from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
+from signorini.mesh import refinement
 from signorini.mesh.boundary import LABELS
-from signorini.mesh.facets import middles, pair_keys, refined_facets, unique_facets
+from signorini.mesh.facets import pair_keys, unique_facets
+from signorini.mesh.geometry import cross, triangle_areas
 from signorini.mesh.grid import Triangles
 
 
 @dataclass(frozen=True, eq=False)
 class Triangulation:
-    """Triangles whose boundary facets each carry one of the labels ``"dirichlet"``, ``"contact"``,
-    ``"neumann"``.
+    """Triangles whose boundary facets each carry one label.
 
     Parameters
     ----------
@@ -30,7 +30,8 @@ class Triangulation:
         Vertices of each triangle, in any order. Numbers are kept in 32 bits, whatever the type they
         come in.
     ends : dict of str to ndarray of int, shape (2, k)
-        End vertices of the facets that carry each label.
+        End vertices of the facets that carry each of the labels ``"dirichlet"``, ``"contact"``,
+        ``"neumann"``.
     subdomains : dict of str to ndarray of int, optional
         Triangles in each named part of the domain, inherited by refinement.
     parent : Triangulation, optional
@@ -41,6 +42,16 @@ class Triangulation:
     MeshError
         If, in a mesh without parent, a boundary facet has no label, or two; if it has not four
         times its parent's triangles.
+
+    Examples
+    --------
+    >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+    >>> triangle = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+    >>> fine = triangle.refined()
+    >>> fine.number_of_vertices, fine.number_of_facets, fine.number_of_triangles
+    (6, 9, 4)
+    >>> fine.boundary_vertices("contact")
+    array([0, 1, 3], dtype=int32)
     """
 
     p: np.ndarray
@@ -50,24 +61,24 @@ class Triangulation:
     parent: "Triangulation | None" = None
 
     def __post_init__(self):
+        ends = {label: _numbers(pairs) for label, pairs in self.ends.items()}
         object.__setattr__(self, "p", np.ascontiguousarray(self.p, dtype=float))
         object.__setattr__(self, "t", _numbers(self.t))
-        object.__setattr__(
-            self, "ends", {label: _numbers(pairs) for label, pairs in self.ends.items()}
-        )
+        object.__setattr__(self, "ends", ends)
         if self.parent is None:
             self._check_labels()
         elif self.number_of_triangles != 4 * self.parent.number_of_triangles:
             raise MeshError(
-                "mesh: no uniform refinement of its parent; make it by refined(), or drop the parent"
+                "mesh: no uniform refinement of its parent; "
+                "make it by refined(), or drop the parent"
             )
 
     @classmethod
     def from_skfem(cls, mesh):
         """A scikit-fem mesh whose named boundaries are the labels."""
-        return cls(
-            mesh.p, mesh.t, {name: mesh.facets[:, k] for name, k in (mesh.boundaries or {}).items()}
-        )
+        boundaries = mesh.boundaries or {}
+        ends = {name: mesh.facets[:, numbers] for name, numbers in boundaries.items()}
+        return cls(mesh.p, mesh.t, ends)
 
     def _check_labels(self):
         times = np.zeros(self.number_of_facets, dtype=int)
@@ -79,21 +90,20 @@ class Triangulation:
             k = wrong[0]
             x, y = self.p[:, self.facets[:, k]].mean(axis=1)
             raise MeshError(
-                f"mesh: {wrong.size} facets need exactly one boundary label each ({', '.join(LABELS)}); "
-                f"facet {k} at ({x:.6g}, {y:.6g}) has {times[k]}, expected {int(expected[k])}"
+                f"mesh: {wrong.size} facets need exactly one boundary label each "
+                f"({', '.join(LABELS)}); facet {k} at ({x:.6g}, {y:.6g}) has {times[k]}, "
+                f"expected {int(expected[k])}"
             )
 
     @cached_property
     def _facets(self):
         if self.parent is None:
             return unique_facets(self.t, self.number_of_vertices)
-        return refined_facets(self.parent, self.t)
+        return refinement.refined_facets(self.parent, self.t)
 
     @property
     def facets(self):
-        """End vertices of each facet, the smaller number first, in lexicographic order, shape (2,
-        nf).
-        """
+        """End vertices of each facet, the smaller first, in lexicographic order, shape (2, nf)."""
         return self._facets[0]
 
     @property
@@ -102,8 +112,9 @@ class Triangulation:
         return self._facets[1]
 
     def forget_facets(self):
-        """Give back the memory of `facets` and `t2f`, 24 bytes a triangle; they are made again when
-        asked for.
+        """Give back the memory of `facets` and `t2f`, which are made again when asked for.
+
+        They take 24 bytes a triangle.
         """
         self.__dict__.pop("_facets", None)
 
@@ -118,12 +129,10 @@ class Triangulation:
         facets, count = self.t2f.ravel(), self.number_of_triangles
         owners = np.tile(np.arange(count), 3)
         ones = np.ones(facets.size, dtype=np.int8)
-        incidence = coo_array(
-            (ones, (owners, facets)), shape=(count, self.number_of_facets)
-        ).tocsr()
-        return (
-            connected_components(incidence @ incidence.T, directed=False, return_labels=False) == 1
-        )
+        shape = (count, self.number_of_facets)
+        incidence = coo_array((ones, (owners, facets)), shape=shape).tocsr()
+        neighbours = incidence @ incidence.T
+        return connected_components(neighbours, directed=False, return_labels=False) == 1
 
     def triangles_at(self, label):
         """The triangles with a facet that carries `label`, each once, as `Triangles`."""
@@ -172,28 +181,28 @@ class Triangulation:
 
     @cached_property
     def stretch(self):
-        """The largest ratio of a triangle's longest edge to the height on it, dimensionless;
-        refinement keeps it.
+        """The largest ratio of a triangle's longest edge to the height on it, dimensionless.
+
+        Refinement keeps it, so it is taken from the root mesh.
         """
         if self.parent is not None:
             return self.parent.stretch
-        return max(self._stretch(cells) for cells in blocks(self.number_of_triangles))
+        return max(self._stretch(cells) for cells in chunk_slices(self.number_of_triangles))
 
     def _stretch(self, cells):
-        """The same of some triangles."""
-        lengths = (self.edge_vectors(cells) ** 2).sum(axis=1)
-        return float((lengths.max(axis=0) / (2.0 * self.areas(cells))).max())
+        squares = (self.edge_vectors(cells) ** 2).sum(axis=1)
+        return float((squares.max(axis=0) / (2.0 * self.areas(cells))).max())
 
     def boundary_facets(self, label):
         """Facets that carry `label`, increasing."""
         ends = self.ends.get(label, np.zeros((2, 0), dtype=np.int32))
+        # Only facets that start where a labelled one does are compared with those: a few of many.
         starts = np.zeros(self.number_of_vertices, dtype=bool)
         starts[np.minimum(*ends)] = True
         near = np.flatnonzero(starts[self.facets[0]]).astype(np.int32)
-        known, wanted = (
-            pair_keys(pairs, self.number_of_vertices) for pairs in (self.facets[:, near], ends)
-        )
-        _check_sides(self.p, label, ends[:, ~np.isin(wanted, known)])
+        known = pair_keys(self.facets[:, near], self.number_of_vertices)
+        wanted = pair_keys(ends, self.number_of_vertices)
+        _check_are_sides(self.p, label, ends[:, ~np.isin(wanted, known)])
         return np.sort(near[np.searchsorted(known, wanted)])
 
     def boundary_vertices(self, label):
@@ -219,9 +228,7 @@ class Triangulation:
         return u[self.t]
 
     def edge_vectors(self, cells):
-        """The edges 01, 12 and 20 of some triangles as vectors, shape (3, 2, len(cells)), unit of
-        length.
-        """
+        """The edges 01, 12 and 20 of some triangles, shape (3, 2, len(cells)), unit of length."""
         corners = self.corners(cells)
         return (corners[:, [1, 2, 0]] - corners).transpose(1, 0, 2)
 
@@ -239,71 +246,44 @@ class Triangulation:
         """
         a, b, c = (self.p[:, v] for v in self.t)
         ab, ac = b - a, c - a
-        twice_area = ab[0] * ac[1] - ab[1] * ac[0]
-        d1, d2 = (values[1] - values[0]) / twice_area, (values[2] - values[0]) / twice_area
+        twice_area = cross(ab, ac)
+        d1 = (values[1] - values[0]) / twice_area
+        d2 = (values[2] - values[0]) / twice_area
         return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])
 
     def refined(self):
         """Each triangle cut into four by the midpoints of its facets; the labels are inherited."""
-        start, end = self.facets
-        p = np.concatenate([self.p, 0.5 * (self.p[:, start] + self.p[:, end])], axis=1)
-        a, b, c = self.t
-        ab, bc, ac = middles(self)
-        t = np.stack(
-            [np.concatenate(v) for v in ((a, ab, ac, bc), (ab, b, bc, ac), (ac, bc, c, ab))]
-        )
-        ends = {label: self._halves(self.boundary_facets(label)) for label in self.ends}
-        count = self.number_of_triangles * np.arange(4)[:, None]
-        subdomains = {name: (cells + count).ravel() for name, cells in self.subdomains.items()}
-        return Triangulation(p, t, ends, subdomains, parent=self)
-
-    def _halves(self, facets):
-        """End vertices of both halves of some facets, in the refined mesh."""
-        start, end = self.facets[:, facets]
-        middle = (self.number_of_vertices + facets).astype(start.dtype)
-        return np.stack([np.concatenate([start, end]), np.concatenate([middle, middle])])
+        return Triangulation(*refinement.refined_arrays(self), parent=self)
 
     def coarser(self):
         """The mesh this one was refined from, or None."""
         return self.parent
 
     def vertex_parents(self):
-        """Two vertices of `coarser()` for each vertex, shape (2, nv): it is their midpoint, or both
-        of them.
-        """
-        own = np.arange(self.parent.number_of_vertices, dtype=self.parent.facets.dtype)
-        return np.concatenate([np.stack([own, own]), self.parent.facets], axis=1)
+        """Two vertices of `coarser()` for each vertex; see `Grid.vertex_parents`."""
+        return refinement.vertex_parents(self.parent)
 
     def children(self, values):
-        """Values on the four children of every triangle of `coarser()`, a copy; see
-        `Grid.children`.
-        """
-        return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2).copy()
+        """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
+        return refinement.children(values)
 
     def vertex_children(self, values):
-        """Values at the vertices of the four children of every triangle of `coarser()`; see
-        `Grid.vertex_children`.
-        """
-        return self.children(values)
+        """Values at the vertices of the children; see `Grid.vertex_children`."""
+        return refinement.children(values)
 
     def from_vertex_children(self, family):
         """Undo `vertex_children`."""
-        return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
+        return refinement.from_children(family)
 
 
-def triangle_areas(corners):
-    """Area of triangles with `corners`, shape (2, 3, k)."""
-    a, b, c = corners.transpose(1, 0, 2)
-    ab, ac = b - a, c - a
-    return 0.5 * np.abs(ab[0] * ac[1] - ab[1] * ac[0])
-
-
-def _check_sides(p, label, strangers):
+def _check_are_sides(p, label, strangers):
+    """Refuse labelled pairs of vertices that are no side of a triangle."""
     if strangers.size:
         (ax, ay), (bx, by) = p[:, strangers[:, 0]].T
         raise MeshError(
-            f"mesh: {strangers.shape[1]} facets labelled {label} are no side of a triangle, such as that from "
-            f"({ax:.6g}, {ay:.6g}) to ({bx:.6g}, {by:.6g}); give the two end vertices of facets"
+            f"mesh: {strangers.shape[1]} facets labelled {label} are no side of a triangle, "
+            f"such as that from ({ax:.6g}, {ay:.6g}) to ({bx:.6g}, {by:.6g}); "
+            "give the two end vertices of facets"
         )
 
 

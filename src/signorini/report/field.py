@@ -5,7 +5,7 @@ boundary.
 import numpy as np
 
 from signorini.fem.contact_line import binding_pieces, contact_line
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.boundary import LABELS
 from signorini.mesh.paths import boundary_paths
 

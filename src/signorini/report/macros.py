@@ -4,12 +4,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from signorini.report.tables import ELEMENTS, NORMS, fixed, percent, slopes_by_series
+from signorini.errors.norms import NORMS
+from signorini.fem.element_facts import ABBREVIATIONS
+from signorini.report.tables import fixed, percent, slopes_by_series
 
 SERIES = {
-    f"{NORMS[norm][2]}{ELEMENTS[element]}": (norm, element)
+    f"{NORMS[norm].macro}{abbreviation}": (norm, element)
     for norm in ("l2", "h1", "h1_semi")
-    for element in ELEMENTS
+    for element, abbreviation in ABBREVIATIONS.items()
 }
 L2_SERIES = {name: key for name, key in SERIES.items() if key[0] == "l2"}
 PRINTED_SERIES = {name: key for name, key in SERIES.items() if key[0] in ("l2", "h1")}

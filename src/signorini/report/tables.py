@@ -6,19 +6,11 @@ formatting is correctly rounded, exact ties to even).
 
 from decimal import Decimal
 
-from signorini.errors.norms import REFERENCE
+from signorini.errors.norms import NORMS, REFERENCE
 from signorini.errors.rates import NO_LOGARITHM, ROUND_OFF, SOUND, trouble_of
+from signorini.fem.element_facts import ABBREVIATIONS, ELEMENT_NAMES
 
-NORMS = {  # in LaTeX, in Markdown, in the name of a macro (which takes letters only)
-    "l2": ("$L^2$ error", "L2", "Ltwo"),
-    "h1": ("$H^1$ error", "H1", "Hone"),
-    "h1_semi": ("broken $H^1$ seminorm", "H1 seminorm", "Semi"),
-    "energy": ("energy norm", "energy", "Energy"),
-    "trace_l2": ("$L^2$ error of the trace", "trace L2", "Trace"),
-    "multiplier_l2": ("$L^2$ error of the multiplier", "multiplier L2", "Multiplier"),
-    "critical_points": ("critical points", "critical points", "Critical"),
-}
-ELEMENTS = {"P1": "CF", "CR": "NCF"}
+ELEMENTS = ABBREVIATIONS  # the name under which studies.sensitivity.page imports it
 
 SCIENTIFIC_BELOW, SCIENTIFIC_FROM = (
     1e-5,
@@ -37,7 +29,7 @@ TEX = {"†": r"$^\dagger$", "‡": r"$^\ddagger$", "§": r"$^\S$", "%": r"\%"}
 
 
 def error_table(
-    errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None
+    errors, rates, norms=("l2", "h1"), elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
 ):
     r"""Return the LaTeX ``tabular`` of Table 5.1: a row for every N, a column for every norm and element.
 
@@ -93,10 +85,19 @@ def error_table(
     lines = [
         rf"\begin{{tabular}}{{r{'r' * width * len(norms)}}}",
         r"\toprule",
-        _tex_row(["", *(rf"\multicolumn{{{width}}}{{c}}{{{NORMS[norm][0]}}}" for norm in norms)]),
+        _tex_row(
+            ["", *(rf"\multicolumn{{{width}}}{{c}}{{{NORMS[norm].heading}}}" for norm in norms)]
+        ),
         " ".join(rf"\cmidrule(lr){{{first}-{last}}}" for first, last in ends),
         _tex_row(
-            ["$N$", *(rf"\multicolumn{{1}}{{c}}{{{ELEMENTS[e]}}}" for _ in norms for e in elements)]
+            [
+                "$N$",
+                *(
+                    rf"\multicolumn{{1}}{{c}}{{{ABBREVIATIONS[e]}}}"
+                    for _ in norms
+                    for e in elements
+                ),
+            ]
         ),
         r"\midrule",
         *(_tex_row(map(_tex_number, row)) for row in levels),
@@ -115,12 +116,12 @@ def error_table(
 
 
 def markdown_table(
-    errors, rates, norms=("l2", "h1"), elements=("P1", "CR"), kind="mean", decimals=8, note=None
+    errors, rates, norms=("l2", "h1"), elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
 ):
     """Return the table of `error_table`, with the same arguments, as Markdown."""
     head = [
         "N",
-        *(f"{NORMS[norm][1]} {ELEMENTS[element]}" for norm in norms for element in elements),
+        *(f"{NORMS[norm].text} {ABBREVIATIONS[element]}" for norm in norms for element in elements),
     ]
     rows = _grid(errors, rates, norms, elements, kind, decimals)
     table = "".join(f"| {' | '.join(row)} |\n" for row in [head, ["---:"] * len(head), *rows])
@@ -131,7 +132,7 @@ def markdown_table(
 def _grid(errors, rates, norms, elements, kind, decimals):
     """Return the cells as plain text: a row for every level, and the row of slopes."""
     _known("norm", norms, NORMS)
-    _known("element", elements, ELEMENTS)
+    _known("element", elements, ELEMENT_NAMES)
     rows = {(row["element"], int(row["n"])): row for row in errors}
     if len(rows) < len(errors):
         raise ValueError("errors: an element and n occur twice")

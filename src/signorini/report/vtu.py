@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.mesh.boundary import LABELS
 from signorini.storage import replacing
 
@@ -29,15 +29,17 @@ def write_vtu(path, mesh, solution):
         If the file cannot be written; the old one is then as it was.
 
     Notes
-    ----- Cells are the triangles, then the boundary facets as lines. Point data ``u``; for CR,
-    which jumps across facets, every triangle has points of its own. Cell data ``gradient`` (3
-    components, on a line that of the triangle behind it) and ``label``: 0 on triangles, 1 on
-    Dirichlet, 2 on contact, 3 on Neumann facets.
+    -----
+    Cells are the triangles, then the boundary facets as lines. Point data ``u``; for CR, which
+    jumps across facets, every triangle has points of its own. Cell data ``gradient`` (3 components,
+    on a line that of the triangle behind it) and ``label``: 0 on triangles, 1 on Dirichlet, 2 on
+    contact, 3 on Neumann facets.
     """
     import meshio
 
-    values = find_element(solution.element).vertex_values(mesh, solution.u)
-    p, t, u = _continuous(mesh, values) if solution.element == "P1" else _broken(mesh, values)
+    element = find_element(solution.element)
+    values = element.vertex_values(mesh, solution.u)
+    p, t, u = (_continuous if element.continuous else _broken)(mesh, values)
     facets = [mesh.boundary_facets(label) for label in LABELS]
     labels = np.repeat(np.arange(1, len(LABELS) + 1), [f.size for f in facets])
     owners, lines = _boundary(mesh, t, np.concatenate(facets))
@@ -62,7 +64,7 @@ def write_vtu(path, mesh, solution):
 
 
 def _continuous(mesh, values):
-    """Points, triangles and values at the points of a function that is continuous at the vertices."""
+    """Points, triangles and values at the points of a function continuous at the vertices."""
     u = np.empty(mesh.number_of_vertices)
     u[mesh.t] = values
     return mesh.p, mesh.t, u

@@ -149,7 +149,7 @@ class _Body:
         """
         found, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, largest(z), np.inf
-        last, best, waited = step, step, 0
+        last, best, waited, kept, per_step = step, step, 0, (found, force), 0.0
         for _ in range(_STEPS):
             if not step:
                 return found, force, (0.0, 0.0)
@@ -161,17 +161,21 @@ class _Body:
             if not energy > 0.0:  # the square of what is missing is no double any more
                 break
             length = rz / energy
-            found += length * p
+            found = found + length * p
             r -= length * Ap
             z, forced = self.displacement(r, active)
             last, step = step, largest(z)
             change, force = largest(forced - force), forced
             waited = waited + 1 if step > _STALLED * best else 0
-            best = min(best, step)
-            if waited > _PATIENCE or (
-                step**2 <= BELOW * size * last and change <= EPS * largest(force)
-            ):
+            if step < best:
+                best, kept = step, (found, force)
+            per_step = max(per_step, largest(force - kept[1]) / step) if waited else 0.0
+            if step**2 <= BELOW * size * last and change <= EPS * largest(force):
                 break
+            if (
+                waited > _PATIENCE
+            ):  # what comes next is no better than what was, and may be much the same
+                return *kept, (_STUCK * best, SAFETY * per_step * best)
         rate = _STUCK if waited else 2.0 * step / last
         return found, force, (rate * step, rate * change)
 
@@ -218,7 +222,11 @@ class _Body:
         samples = np.copysign(rounding[:, None], signs)
         reduced, self.sample = self.condensed.reduce(samples), samples[:, -1]
         moved, pressed = self.displacement(samples, active, reduced)
-        largest_u, largest_force = largest(moved[:, 1:]), largest(pressed[:, 1:])
+        largest_u = largest(moved[:, 1:])
+        own = rounding[
+            problem.contact[active]
+        ]  # two rows of a sample may cancel in a force; its own row stays
+        largest_force = max(largest(pressed[:, 1:]), largest(own))
         on_contact = moved[problem.contact].T
         gaps, forces = (bound_of(found[0], found[1:]) for found in (on_contact, pressed.T))
         acting = np.max((fluxes + np.abs(problem.b))[problem.contact], initial=0.0)

@@ -20,7 +20,9 @@ from signorini.fem.stiffness import assemble_stiffness
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
 STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+_STRONG = 0.25  # of the largest negative coupling of a row, from which on a coupling is strong
 _WILD = 2.0  # weight of an interpolation that positive couplings have spoilt
+_NOTHING = 1e-3  # of the strong couplings of a row: what is too little to divide them by
 _EXACT = 1e6  # range of the diagonal beyond which products are taken by differences
 _JUMP = 30.0  # of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow
 HALF = 0.5 - 1e-9
@@ -138,16 +140,56 @@ def _algebraic(A, robust=False):
     """Levels that follow the large entries of A alone."""
     if A.shape[0] <= _SMALL:
         return [Level(A, robust=robust)]
-    from pyamg import ruge_stuben_solver, smoothed_aggregation_solver
+    from pyamg import smoothed_aggregation_solver
     from scipy.sparse import csr_array, csr_matrix
 
-    found = ruge_stuben_solver(csr_matrix(A), max_coarse=_SMALL).levels
-    if any(abs(level.P).max() > _WILD for level in found[:-1]):
-        found = smoothed_aggregation_solver(csr_matrix(A), max_coarse=_SMALL).levels
-    coarsest = Level(csr_array(found[-1].A), robust=robust)
-    return [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]] + [
-        coarsest
-    ]
+    levels, coarse = [], csr_array(A)
+    while coarse.shape[0] > _SMALL:
+        splitting, strong = _splitting(coarse)
+        if not 0 < splitting.sum() < splitting.size:
+            break
+        P = _interpolation(coarse, splitting, strong)
+        if P is None:
+            found = smoothed_aggregation_solver(csr_matrix(A), max_coarse=_SMALL).levels
+            levels = [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]]
+            coarse = csr_array(found[-1].A)
+            break
+        levels.append(Level(coarse, P, robust))
+        coarse = levels[-1].R @ coarse @ P
+    return [*levels, Level(coarse, robust=robust)]
+
+
+def _splitting(A):
+    """Which unknowns are to be coarse, 0 or 1 each, and the strong couplings, CSR.
+
+    Negative couplings alone are strong: across a positive one, u does not vary slowly after
+    smoothing.
+    """
+    from pyamg.classical.split import RS
+    from pyamg.strength import classical_strength_of_connection
+
+    strong = classical_strength_of_connection(A, _STRONG, norm="min")
+    return RS(strong), strong
+
+
+def _interpolation(A, splitting, strong):
+    """The interpolation by strong couplings, CSR, or None where its weights are wild.
+
+    The weights of a row are its strong couplings over their sum and that of the whole row. Where
+    positive couplings to held unknowns were left out of the row, its own sum is negative, and both
+    together may be nothing.
+    """
+    from pyamg.amg_core import remove_strong_FF_connections
+    from pyamg.classical.interpolate import classical_interpolation
+
+    remove_strong_FF_connections(A.shape[0], strong.indptr, strong.indices, strong.data, splitting)
+    strong.eliminate_zeros()
+    kept = A.multiply(strong.astype(bool)).tocsr()
+    size = kept.diagonal() - kept.sum(axis=1)
+    if np.any(np.abs(size + A.sum(axis=1)) < _NOTHING * size):
+        return None
+    P = classical_interpolation(A, strong, splitting)
+    return None if abs(P).max() > _WILD else P
 
 
 def _means(pairs, count):

@@ -177,7 +177,7 @@ class Edges(Rows):
         edges, their shares.
         """
         along_y, along_x = self._shares(("bottom", "top"))[:, None], self._shares(("left", "right"))
-        for first, last in self.grid.row_blocks():
+        for first, last in self.grid.row_chunks():
             yield (
                 first,
                 last,

@@ -2,7 +2,6 @@
 
 import importlib
 import warnings
-from dataclasses import replace
 
 import numpy as np
 
@@ -69,7 +68,7 @@ def solve(problem, method="auto", guess=None):
     method, reason = _choose(problem, method)
     check_solvable(problem)
     exponent = _exponent(problem)
-    scaled = _scaled(problem, -exponent)
+    scaled = problem.scaled(-exponent)
     if method != "fourier":
         check_symmetric(scaled.A)
     shifted, constant, (found, method, reason) = _counted(scaled, method, reason, guess)
@@ -122,7 +121,7 @@ def _counted(problem, method, reason, guess):
     if rest is not None:
         return problem, 0.0, (rest, method, reason)
     constant = _constant(problem, near=[problem.fixed_values, problem.lower])
-    shifted = _shifted(problem, constant)
+    shifted = problem.shifted(constant)
     far = _constant(problem, near=[problem.fixed_values])
     try:
         found = _find(shifted, method, reason, guess)
@@ -133,7 +132,7 @@ def _counted(problem, method, reason, guess):
         varies = False
     if constant or varies or not far:
         return shifted, constant, found
-    shifted = _shifted(problem, far)
+    shifted = problem.shifted(far)
     return shifted, far, _find(shifted, method, reason, None)
 
 
@@ -259,14 +258,6 @@ def _constant(problem, near):
     return float(low)
 
 
-def _shifted(problem, constant):
-    if not constant:
-        return problem
-    return _with(
-        problem, lower=problem.lower - constant, fixed_values=problem.fixed_values - constant
-    )
-
-
 def _exponent(problem):
     """The power of two that brings the data to order one; exact, so results scale with the data bit
     for bit.
@@ -277,20 +268,3 @@ def _exponent(problem):
             f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3
         )
     return int(np.frexp(size)[1]) if size else 0
-
-
-def _scaled(problem, exponent):
-    if not exponent:
-        return problem
-    return _with(
-        problem,
-        **{k: np.ldexp(getattr(problem, k), exponent) for k in ("b", "lower", "fixed_values")},
-    )
-
-
-def _with(problem, **data):
-    """The problem with other data, its matrix kept if it is there already."""
-    changed = replace(problem, **data)
-    if "A" in problem.__dict__:
-        changed.__dict__["A"] = problem.A
-    return changed

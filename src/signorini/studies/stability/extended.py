@@ -146,7 +146,9 @@ class _Search:
         self.problem, self.body = problem, _Body(problem)
         data = np.concatenate([problem.fixed_values, problem.lower])
         self.shift = data[:1].astype(EXTENDED).sum()
-        self.lower = problem.lower.astype(EXTENDED) - self.shift
+        self.fixed_values, self.lower = (
+            _shifted(values, self.shift) for values in (problem.fixed_values, problem.lower)
+        )
         self.b = problem.b.astype(EXTENDED)
         self.signs = np.random.default_rng(0).choice((-1, 1), (problem.b.size, _SAMPLES))
         self.signs[:, 0] = 1  # where the inverse is positive, this sample is a bound
@@ -177,10 +179,15 @@ class _Search:
         self.head = (
             np.zeros_like(self.b) if solution is None else solution.u.astype(EXTENDED) - self.shift
         )
-        self.head[fixed] = self.problem.fixed_values.astype(EXTENDED) - self.shift
-        self.head[contact[active]] = self.lower[active]
         self.tail = np.zeros_like(self.b)
+        self.head[fixed], self.tail[fixed] = self.fixed_values
+        self._close(active)
         return active
+
+    def _close(self, active):
+        """Put the active contact dofs on the obstacle, to the last bit of both numbers."""
+        held = self.problem.contact[active]
+        self.head[held], self.tail[held] = (part[active] for part in self.lower)
 
     def _loads(self):
         """b - A u, and samples of its round-off, shape (ndof, samples)."""
@@ -189,7 +196,8 @@ class _Search:
 
     def _gap(self):
         contact = self.problem.contact
-        return (self.head[contact] - self.lower) + self.tail[contact]
+        head, tail = self.lower
+        return (self.head[contact] - head) + (self.tail[contact] - tail)
 
     def _move(self, found):
         """Add the step; what the sum rounds off goes to the tail."""
@@ -197,8 +205,7 @@ class _Search:
         total = self.head + moved
         part = total - self.head
         self.head, self.tail = total, (self.head - (total - part)) + (moved - part)
-        held = self.problem.contact[found.active]
-        self.head[held], self.tail[held] = self.lower[found.active], 0
+        self._close(found.active)
 
     def _verdict(self, found):
         u, size = self.head + self.tail, _largest(self.head + self.tail + self.shift)
@@ -356,6 +363,17 @@ def _narrow_order(nodes, first, second):
         shape=(nodes.size,) * 2,
     )
     return nodes[reverse_cuthill_mckee(pattern.tocsr(), symmetric_mode=True)]
+
+
+def _shifted(values, shift):
+    """Doubles less a constant, without a rounding: as the sum of two numbers (Knuth).
+
+    A stiff coupling feels what one number has no room for beside the constant.
+    """
+    values = values.astype(EXTENDED)
+    head = values - shift
+    taken = head - values
+    return head, (values - (head - taken)) - (shift + taken)
 
 
 def _largest(values):

@@ -1,0 +1,63 @@
+"""Checks of data on a mesh: poles of the force, and an obstacle that leaves nothing admissible."""
+
+import numpy as np
+
+from signorini.exceptions import SceneError
+from signorini.formula import Formula
+
+_ROUNDING = 1e-10  # relative, within which obstacle and Dirichlet data meet at a corner
+_COARSE = 2**15  # triangles up to which poles of f are looked for
+
+
+def check_poles(mesh, f):
+    """Refuse a formula that has no finite value at a vertex or an edge midpoint.
+
+    Poles tend to be there, and quadrature may miss them. Fine meshes are not looked at.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    f : Formula
+        Anything else is not looked at either.
+
+    Raises
+    ------
+    FormulaError
+        By the formula itself.
+    """
+    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
+        f(*mesh.p)
+        a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
+        f(*(0.5 * (a + b)))
+
+
+def check_corners(mesh, data, size):
+    """Refuse an obstacle above the Dirichlet data at a shared corner.
+
+    The trace would jump there, and no function would be admissible: K is empty.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    data : Data
+    size : float
+        Largest of obstacle and Dirichlet data, to which rounding is relative; unit of u.
+
+    Raises
+    ------
+    SceneError
+        Naming the corner and both values.
+    """
+    shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
+    x, y = mesh.points(shared)
+    obstacle, dirichlet = (
+        formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet)
+    )
+    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
+    if above.any():
+        k = int(np.flatnonzero(above)[0])
+        raise SceneError(
+            f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet "
+            f"parts meet: obstacle {obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; "
+            "lower the obstacle or raise dirichlet there"
+        )

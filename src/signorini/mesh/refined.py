@@ -1,0 +1,77 @@
+"""A domain that is triangulated once, its root: every level is a uniform refinement of it."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from signorini.exceptions import MeshError
+from signorini.memory import MESH, check_memory
+
+
+@dataclass(frozen=True, eq=False)
+class Refined:
+    """A root triangulation and its uniform refinements.
+
+    Parameters
+    ----------
+    root : Triangulation
+    coarsest : int
+        The root's level.
+    width : float
+        The root's mesh width, unit of length.
+    boundary : dict, optional
+        Label -> formula; applied again on every level. Without it the root's labels are inherited.
+    """
+
+    root: object
+    coarsest: int
+    width: float
+    boundary: dict | None = None
+
+    @cached_property
+    def _levels(self):
+        return {self.coarsest: self.root}
+
+    def count_triangles(self, n):
+        """Number of triangles of level n, which is not made.
+
+        Raises
+        ------
+        MeshError
+            If n is no power of two times the root's level.
+        """
+        ratio, rest = divmod(n, self.coarsest)
+        is_power_of_two = ratio >= 1 and ratio & (ratio - 1) == 0
+        if rest or not is_power_of_two:
+            raise MeshError(
+                f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; "
+                "double it"
+            )
+        return ratio**2 * self.root.number_of_triangles
+
+    def level(self, n):
+        """The triangulation of level n.
+
+        Raises
+        ------
+        MeshError
+            If n is no power of two times the root's level, or the memory is too small.
+        """
+        triangles = self.count_triangles(n)
+        if n not in self._levels:
+            check_memory(triangles, MESH, f"n = {n}")
+            self._levels[n] = self._refined(self.level(n // 2))
+        return self._levels[n]
+
+    def _refined(self, parent):
+        finer = parent.refined()
+        if self.boundary is None:
+            return finer
+        from signorini.mesh.labels import NamedMesh, labelled_ends
+        from signorini.mesh.rules import boundary_rules
+
+        ends = labelled_ends(NamedMesh(finer.p, finer.t), boundary_rules(self.boundary))
+        return replace(finer, ends=ends)
+
+    def mesh_size(self, n):
+        """The mesh width h of level n: half the root's for each doubling of n; unit of length."""
+        return self.width * self.coarsest / n

@@ -1,0 +1,77 @@
+"""Arrays: .npz files, which carry their checksums inside."""
+
+import zipfile
+
+from signorini.exceptions import StorageError
+from signorini.storage.files import replacing
+
+
+def write_npz(path, kind, **arrays):
+    """Write arrays as an uncompressed .npz; its bytes depend on them alone.
+
+    Parameters
+    ----------
+    path : path-like
+    kind : str
+        What the arrays are; an entry of that name says it.
+    **arrays
+        ndarray, number or text, by the name of the entry.
+    """
+    import numpy as np
+
+    entries = {"kind": kind, **arrays}
+    with (
+        replacing(path, "wb") as stream,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive,
+    ):
+        # Checksums do not show an entry that is gone altogether, so that all names are kept here.
+        archive.comment = " ".join(entries).encode()
+        for name, value in entries.items():
+            entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+            with archive.open(entry, "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(value), allow_pickle=False)
+
+
+def read_npz(path, kind):
+    """Read what `write_npz` wrote, every checksum verified.
+
+    Parameters
+    ----------
+    path : path-like
+    kind : str
+        What the arrays must be.
+
+    Returns
+    -------
+    dict
+        Name -> ndarray.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, truncated, altered, holds Python objects, or is of another kind.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            arrays = {
+                name.removesuffix(".npy"): _read_array(archive, name) for name in archive.namelist()
+            }
+            if archive.comment != " ".join(arrays).encode():
+                raise ValueError("entries are missing")
+    except (OSError, ValueError, EOFError, RuntimeError, MemoryError, zipfile.BadZipFile) as error:
+        raise StorageError(
+            f"{path}: truncated or altered ({error}); delete it and rerun"
+        ) from error
+    if str(arrays.pop("kind", "")) != kind:
+        raise StorageError(f"{path}: does not hold a {kind}; delete it and rerun")
+    return arrays
+
+
+def _read_array(archive, name):
+    import numpy as np
+
+    with archive.open(name) as member:
+        array = np.lib.format.read_array(member, allow_pickle=False)
+        if member.read():  # the checksum is verified at the member's end, and not before
+            raise ValueError(f"{name} is longer than its header says")
+    return array

@@ -1,0 +1,161 @@
+"""Files with a digest: written whole or not at all, and refused when truncated or altered."""
+
+import hashlib
+import json
+import os
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+from signorini.exceptions import StorageError
+
+
+@contextmanager
+def replacing(path, mode="w", **options):
+    """Write a file that takes its place only when the block ends without an error.
+
+    Until then it is a temporary file beside `path`.
+
+    Parameters
+    ----------
+    path : path-like
+        Its folder is made if it is not there.
+    mode : str, optional
+        As of `open`.
+    **options
+        As of `open`: encoding, newline.
+
+    Yields
+    ------
+    file object
+
+    Raises
+    ------
+    StorageError
+        If the folder cannot be written or the disk is full; `path` is then as it was.
+    """
+    path = Path(path)
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        with os.fdopen(descriptor, mode, **options) as stream:
+            yield stream
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+        temporary = None
+    except OSError as error:
+        raise StorageError(
+            f"{path}: cannot write ({error.strerror}); free space or choose a writable folder"
+        ) from error
+    finally:
+        if temporary is not None:
+            os.unlink(temporary)
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+@contextmanager
+def sealing(path, mode="w", **options):
+    """`replacing`, and then the file's digest beside it, which `read_sealed` asks for.
+
+    Parameters
+    ----------
+    path, mode, **options
+        As of `replacing`.
+
+    Yields
+    ------
+    file object
+
+    Raises
+    ------
+    StorageError
+        As `replacing`; where there is no space for the digest alone, readers refuse the file.
+    """
+    with replacing(path, mode, **options) as stream:
+        yield stream
+    with replacing(digest_file(path), encoding="utf-8", newline="\n") as stream:
+        stream.write(f"{_digest(Path(path).read_bytes())}  {Path(path).name}\n")
+
+
+def digest_file(path):
+    """Where the digest of a file is kept."""
+    return Path(path).with_name(f".{Path(path).name}.sha256")
+
+
+def _digest(content):
+    return hashlib.sha256(content).hexdigest()
+
+
+def read_sealed(path):
+    """The bytes that `sealing` wrote.
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, or is not what its digest says.
+    """
+    content = read_bytes(path)
+    if not _sealed(content, digest_file(path)):
+        raise StorageError(
+            f"{path}: truncated or altered (its digest is not that in {digest_file(path).name}); "
+            "delete it and rerun"
+        )
+    return content
+
+
+def read_bytes(path):
+    """The bytes of a file, with or without a digest.
+
+    Raises
+    ------
+    StorageError
+        If it cannot be read.
+    """
+    try:
+        return Path(path).read_bytes()
+    except OSError as error:
+        raise StorageError(
+            f"{path}: cannot read ({error.strerror}); delete it and rerun"
+        ) from error
+
+
+def _sealed(content, digest):
+    try:
+        return digest.read_text(encoding="utf-8").split()[:1] == [_digest(content)]
+    except (OSError, ValueError):
+        return False
+
+
+def write_text(path, text):
+    """Write a text as UTF-8 with Unix line ends, and its digest.
+
+    Parameters
+    ----------
+    path : path-like
+    text : str
+    """
+    with sealing(path, encoding="utf-8", newline="\n") as stream:
+        stream.write(text)
+
+
+def write_json(path, value):
+    """Write a value as JSON, and its digest.
+
+    Parameters
+    ----------
+    path : path-like
+    value : object
+        Lists, dicts, text and numbers.
+    """
+    write_text(path, json.dumps(value, indent=1) + "\n")
+
+
+def read_json(path):
+    """Read what `write_json` wrote."""
+    return json.loads(read_sealed(path))

@@ -1,0 +1,25 @@
+"""The examples of the docstrings in `signorini.errors`."""
+
+import doctest
+import importlib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "signorini.errors.exact",
+        "signorini.errors.graded",
+        "signorini.errors.projection",
+        "signorini.errors.rates",
+    ],
+)
+def test_the_examples_run(module, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    failed, tried = doctest.testmod(importlib.import_module(module))
+    assert tried > 0
+    assert failed == 0

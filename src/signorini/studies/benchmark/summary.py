@@ -34,11 +34,11 @@ def with_errors(points, errors):
         The norms are None where there are no errors.
     """
     found = {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
-    none = dict.fromkeys(ERRORS)
-    known = [found.get((row["scene"], *_level(row)), none) for row in points]
-    return [
-        row | {norm: of[norm] for norm in ERRORS} for row, of in zip(points, known, strict=True)
-    ]
+    rows = []
+    for row in points:
+        known = found.get((row["scene"], *_level(row)), {})
+        rows.append(row | {norm: known.get(norm) for norm in ERRORS})
+    return rows
 
 
 def _level(row):

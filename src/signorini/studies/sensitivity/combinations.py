@@ -65,16 +65,16 @@ def combinations(errors, published):
     levels = sorted({int(row["n"]) for row in errors})
     printed = _comparable(published, levels)
     rows = []
-    for (diagonal, load, rule), table in _wide(errors).groupby(_SHARED, sort=False):
+    for shared, table in _wide(errors).groupby(_SHARED, sort=False):
         for h1, column in H1.items():
             columns = {"l2": "l2", "h1": column}
-            series = {(n, e): table[columns[n], e].tolist() for n, e in SERIES}
-            found = {pair: slopes([1.0 / n for n in levels], series[pair]) for pair in SERIES}
-            for slope in SLOPES:
-                key = {"diagonal": diagonal, "load": load, "rule": rule, "h1": h1, "slope": slope}
-                steep = {pair: kinds[slope] for pair, kinds in found.items()}
-                key |= _agreement(printed, levels, series, steep)
-                rows.append(key | _conclusion(series, steep))
+            series = {(norm, e): table[columns[norm], e].tolist() for norm, e in SERIES}
+            fitted = {pair: slopes([1.0 / n for n in levels], series[pair]) for pair in SERIES}
+            for kind in SLOPES:
+                row = dict(zip(_SHARED, shared, strict=True)) | {"h1": h1, "slope": kind}
+                rates = {pair: found[kind] for pair, found in fitted.items()}
+                row |= _agreement(printed, levels, series, rates)
+                rows.append(row | _conclusion(series, rates))
     return rows
 
 
@@ -95,19 +95,20 @@ def _wide(errors):
     return frame.droplevel("order")
 
 
-def _agreement(printed, levels, series, steep):
-    rows = [
+def _agreement(printed, levels, series, rates):
+    """How well the published numbers are met; `rates` are slopes by norm and element."""
+    error_rows = [
         {"element": e, "n": str(n), "l2": repr(series["l2", e][k]), "h1": repr(series["h1", e][k])}
         for e in ELEMENTS
         for k, n in enumerate(levels)
     ]
-    rates = [
-        {"element": e, "norm": norm, "kind": "mean", "slope": repr(value)}
-        for (norm, e), value in steep.items()
+    rate_rows = [
+        {"element": e, "norm": norm, "kind": "mean", "slope": repr(slope)}
+        for (norm, e), slope in rates.items()
     ]
-    found = compare(printed, rows, rates)
-    count = sum(number["quantity"] == "error" for number in printed)
-    errors, steepness = found[:count], found[count:]
+    compared = compare(printed, error_rows, rate_rows)
+    count = sum(number["quantity"] == "error" for number in printed)  # which come first
+    errors, others = compared[:count], compared[count:]
     misses = [abs(float(row["computed"]) / float(row["published"]) - 1.0) for row in errors]
     worst = misses.index(max(misses))
     return {
@@ -115,17 +116,20 @@ def _agreement(printed, levels, series, steep):
         "matched": sum(row["ok"] for row in errors),
         "largest_miss": misses[worst],
         "cell": errors[worst]["cell"],
-        "slopes": len(steepness),
-        "slopes_matched": sum(row["ok"] for row in steepness),
+        "slopes": len(others),
+        "slopes_matched": sum(row["ok"] for row in others),
     }
 
 
-def _conclusion(series, steep):
-    columns = {f"slope_{norm}_{element}": steep[norm, element] for norm, element in SERIES}
+def _conclusion(series, rates):
+    """The slopes, and which element has the smaller error."""
+    columns = {f"slope_{norm}_{element}": rates[norm, element] for norm, element in SERIES}
     for norm in NORMS:
-        quotients = [b / a for a, b in zip(series[norm, "P1"], series[norm, "CR"], strict=True)]
+        pairs = zip(series[norm, "P1"], series[norm, "CR"], strict=True)
+        quotients = [cr / p1 for p1, cr in pairs]
+        mean = math.fsum(map(math.log, quotients)) / len(quotients)
         columns[f"{norm}_smaller"] = " ".join(map(smaller, quotients))
-        columns[f"{norm}_ratio"] = math.exp(math.fsum(map(math.log, quotients)) / len(quotients))
+        columns[f"{norm}_ratio"] = math.exp(mean)
     return columns
 
 

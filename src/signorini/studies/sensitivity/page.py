@@ -4,10 +4,18 @@ import pandas as pd
 
 from signorini.report.document import render
 from signorini.report.tables import ELEMENTS
-from signorini.studies.sensitivity.combinations import NORMS, SERIES, TIE, one_at_a_time, where
+from signorini.studies.sensitivity.combinations import (
+    NORMS,
+    SERIES,
+    TIE,
+    one_at_a_time,
+    smaller,
+    where,
+)
 from signorini.studies.sensitivity.options import OPTIONS, PAPER, count_solves
 
 PAGE = "studies/sensitivity/page.md.j2"
+_SLOPES = [f"slope_{norm}_{element}" for norm, element in SERIES]
 
 
 def page(layout, rows, errors, reference_n, quick=False):
@@ -54,7 +62,7 @@ def _matches(frame):
     total, slopes = int(frame["errors"][0]), int(frame["slopes"][0])
     met = frame[frame["matched"] == total]
     with_slopes = met[(met["slopes_matched"] == slopes) & (slopes > 0)]
-    same = (frame["diagonal"] == PAPER["diagonal"]) & (frame["load"] == PAPER["load"])
+    others = frame[~_as_in_the_paper(frame)]
     return {
         "combinations": len(frame),
         "counts": [frame[name].nunique() for name in OPTIONS],
@@ -65,24 +73,28 @@ def _matches(frame):
         "met_slopes": list(with_slopes["slope"].unique()),
         "unmatched": (frame["matched"] == 0).sum(),
         "next": frame["matched"][frame["matched"] < total].max(),
-        "nearest": frame.loc[frame["largest_miss"][~same].idxmin()],
+        "nearest": others.loc[others["largest_miss"].idxmin()],
     }
+
+
+def _as_in_the_paper(frame):
+    return (frame["diagonal"] == PAPER["diagonal"]) & (frame["load"] == PAPER["load"])
 
 
 def _conclusions(frame, pairs, levels):
     """How many pairs of a diagonal and a load rule would have led to the paper's conclusions."""
-    base = pairs[(pairs["diagonal"] == PAPER["diagonal"]) & (pairs["load"] == PAPER["load"])]
-    rates = pairs[[f"slope_{norm}_{element}" for norm, element in SERIES]].map("{:.1f}".format)
-    words = base["l2_smaller"].item().split()
+    (paper,) = pairs.index[_as_in_the_paper(pairs)]
+    slopes = pairs[_SLOPES].map("{:.1f}".format)
+    rankings = pairs["l2_smaller"]
+    ranking = {}
+    for n, word in zip(levels, rankings[paper].split(), strict=True):
+        ranking.setdefault(word, []).append(n)
     by_pair = frame.groupby(["diagonal", "load"])
     return {
         "pairs": len(pairs),
-        "ranking": {
-            name: [n for n, word in zip(levels, words, strict=True) if word == name]
-            for name in set(words)
-        },
-        "same_ranking": (pairs["l2_smaller"] == base["l2_smaller"].item()).sum(),
-        "same_slopes": (rates == rates.loc[base.index[0]]).all(axis=1).sum(),
+        "ranking": ranking,
+        "same_ranking": (rankings == rankings[paper]).sum(),
+        "same_slopes": (slopes == slopes.loc[paper]).all(axis=1).sum(),
         "cr_better": (pairs["l2_ratio"] < 1.0).sum(),
         "unstable": {norm: (by_pair[f"{norm}_smaller"].nunique() > 1).sum() for norm in NORMS},
     }
@@ -90,19 +102,17 @@ def _conclusions(frame, pairs, levels):
 
 def _rankings(pairs, levels):
     """How often each element has the smaller error, per level and on the geometric mean."""
-    words = {norm: pairs[f"{norm}_smaller"].str.split(expand=True) for norm in NORMS}
-    rows = [
-        {"n": n} | {norm: dict(words[norm][k].value_counts()) for norm in NORMS}
-        for k, n in enumerate(levels)
-    ]
-    better = {norm: (pairs[f"{norm}_ratio"] < 1.0).sum() for norm in NORMS}
-    mean = {norm: {"P1": len(pairs) - count, "CR": count} for norm, count in better.items()}
-    return [*rows, {"n": "mean"} | mean]
+    rows = [{"n": n} for n in [*levels, "mean"]]
+    for norm in NORMS:
+        words = pairs[f"{norm}_smaller"].str.split(expand=True)
+        words["mean"] = pairs[f"{norm}_ratio"].map(smaller)
+        for row, column in zip(rows, words, strict=True):
+            row[norm] = dict(words[column].value_counts())
+    return rows
 
 
 def _loads(pairs):
     """Load rule -> ranges over the diagonals of the ratio in L2 and of the slopes."""
-    columns = ["l2_ratio", *(f"slope_{norm}_{element}" for norm, element in SERIES)]
-    found = pairs.groupby("load", sort=False)[columns]
+    found = pairs.groupby("load", sort=False)[["l2_ratio", *_SLOPES]]
     low, high = found.min(), found.max()
     return {load: list(zip(low.loc[load], high.loc[load], strict=True)) for load in low.index}

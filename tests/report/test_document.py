@@ -122,6 +122,7 @@ def test_a_clock_rate_is_no_reference(layout):
     ("plain", "typeset"),
     [
         ("2e-14 & -3 %", r"$2\times10^{-14}$ \& $-$3\,\%"),
+        ("≤2, <0.1, 5 × 3", r"$\le$2, $<$0.1, 5 $\times$ 3"),
         ("1e+06, l-shape, 2026-11-22", "$10^{6}$, l-shape, 2026-11-22"),
     ],
 )

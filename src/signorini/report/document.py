@@ -39,6 +39,7 @@ from signorini.report.tables import percent
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]
+_SYMBOLS = {"≤": r"$\le$", "×": r"$\times$", "<": "$<$", ">": "$>$", r" \%": r"\,\%"}
 _PIPE = re.compile(r"(?<!\\)\|")
 _VERBATIM = re.compile(r"(\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
 
@@ -205,7 +206,8 @@ def _latex_words(text):
     """Without mathematics: minus signs, powers of ten, and thin spaces before the percent sign."""
     text = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text)
     text = text.translate(str.maketrans(ESCAPES))
-    text = text.replace("≤", r"$\le$").replace("×", r"$\times$").replace(r" \%", r"\,\%")
+    for sign, symbol in _SYMBOLS.items():
+        text = text.replace(sign, symbol)
     text = re.sub(r"\*([^*]+)\*", r"\\emph{\1}", text)
     text = re.sub(r"\b(\d[\d.]*)e([+-])0*(\d+)", _power_of_ten, text)
     return re.sub(r"(?<![\w{}])-(?=\d)", "$-$", text)

@@ -121,7 +121,7 @@ def render(template, layout, **slots):
     KeyError
         If a text refers to no figure or table of the page.
     """
-    page = _environment().get_template(template)
+    page = environment().get_template(template)
     return _render(page, layout, slots)
 
 
@@ -138,7 +138,7 @@ def render_text(text, layout, **slots):
     \clearpage
     <BLANKLINE>
     """
-    return _render(_environment().from_string(text), layout, slots)
+    return _render(environment().from_string(text), layout, slots)
 
 
 def _render(page, layout, slots):
@@ -151,7 +151,7 @@ def _render(page, layout, slots):
     def inline(cell):
         return _INLINE[layout](str(cell), known)
 
-    macros = _environment().get_template(LAYOUTS[layout]).make_module({"inline": inline})
+    macros = environment().get_template(LAYOUTS[layout]).make_module({"inline": inline})
     shown = [getattr(macros, block.kind)(block).rstrip() for block in blocks]
     return "\n\n".join(shown) + "\n" + macros.end
 
@@ -233,7 +233,8 @@ _INLINE = {"markdown": markdown_text, "latex": latex_text}
 
 
 @cache
-def _environment():
+def environment():
+    """Where templates are found, with the filters of `quantities`; a `jinja2.Environment`."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_LIBRARY),
         undefined=jinja2.StrictUndefined,

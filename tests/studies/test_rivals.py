@@ -83,7 +83,10 @@ def test_a_rival_that_is_absent_says_what_to_install():
 
 
 def test_nothing_foreign_is_imported_before_it_is_asked_for():
-    program = "import sys, signorini.studies.rivals; sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    program = (
+        "import sys, signorini.studies.rivals; "
+        "sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    )
     subprocess.run(
         [sys.executable, "-c", program], check=True, env={"PYTHONPATH": "src", "PATH": ""}
     )

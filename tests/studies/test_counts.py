@@ -13,9 +13,13 @@ from signorini.studies.benchmark.counts import changes, count_scene
 
 FOLDER = Path(__file__).parents[2] / "config" / "scenes"
 RECORD = read_table(Path(__file__).parents[1] / "data" / "counts.csv")
-REMEDY = "if on purpose: python benchmarks/counts.py --write, and commit tests/data/counts.csv with the reason"
-ROW = {"scene": "paper", "element": "P1", "method": "direct", "products": 5, "cycles": 0, "factorisations": 1} | {
-    "steps": 10, "inner": 100, "bytes_per_unknown": 1000,
+REMEDY = (
+    "if on purpose: python benchmarks/counts.py --write, and commit tests/data/counts.csv with the"
+    " reason"
+)
+ROW = {
+    "scene": "paper", "element": "P1", "method": "direct", "products": 5, "cycles": 0,
+    "factorisations": 1, "steps": 10, "inner": 100, "bytes_per_unknown": 1000,
 }  # fmt: skip
 
 

@@ -65,7 +65,7 @@ def test_the_plain_active_set_method_cycles_on_degenerate_data(name):
 
 
 def test_a_rival_that_raises_gives_no_answer(problem, monkeypatch):
-    def broken(qp, tolerance, deadline):
+    def broken(qp):
         raise RuntimeError("factorisation failed")
 
     monkeypatch.setattr(active_set, "spsolve", broken)
@@ -83,7 +83,10 @@ def test_a_rival_that_is_absent_says_what_to_install():
 
 
 def test_nothing_foreign_is_imported_before_it_is_asked_for():
-    program = "import sys, signorini.studies.rivals; sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    program = (
+        "import sys, signorini.studies.rivals; "
+        "sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
+    )
     subprocess.run(
         [sys.executable, "-c", program], check=True, env={"PYTHONPATH": "src", "PATH": ""}
     )

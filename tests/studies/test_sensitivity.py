@@ -1,4 +1,4 @@
-"""The sensitivity study: which choices meet the paper's table, what others would have concluded,
+"""The sensitivity study: which options meet the paper's table, what others would have concluded,
 and what it costs.
 """
 
@@ -11,19 +11,18 @@ import pytest
 
 from signorini import load_scene
 from signorini.storage import write_csv
-from signorini.studies.page import Figure, Table, Text, to_latex, to_markdown
 from signorini.studies.sensitivity import combinations as study
-from signorini.studies.sensitivity import options as choices
-from signorini.studies.sensitivity.page import page
-from signorini.studies.sensitivity.solves import errors_of_diagonal
-from signorini.studies.sensitivity.unsaid import (
-    CHOICES,
+from signorini.studies.sensitivity import solves
+from signorini.studies.sensitivity.errors import errors_of_diagonal
+from signorini.studies.sensitivity.options import (
     DIAGONALS,
     LOADS,
+    OPTIONS,
     PAPER,
     RULES,
     count_solves,
 )
+from signorini.studies.sensitivity.page import page
 
 ROOT = Path(__file__).parents[2]
 SCENE = load_scene(ROOT / "config/scenes/paper.yaml")
@@ -58,11 +57,11 @@ def combined_quick():
 
 
 def options(rows):
-    return [tuple(row[choice] for choice in CHOICES) for row in rows]
+    return [tuple(row[name] for name in OPTIONS) for row in rows]
 
 
 def test_on_the_papers_diagonal_one_table_matches_all_errors():
-    """The midpoint rule is exact, and errors have no slope; the four slopes are met as means alone."""
+    """The midpoint rule is exact, errors have no slope; the four slopes are met as means alone."""
     found = [row for row in combined() if row["matched"] == 24]
     rules, slopes = ("exact", "midpoints"), ("mean", "fit")
     assert options(found) == [
@@ -75,7 +74,7 @@ def test_on_the_papers_diagonal_one_table_matches_all_errors():
 
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("diagonal", DIAGONALS[1:])
-def test_another_diagonal_misses_by_far_more_than_the_reference_can_bend(diagonal, load):
+def test_another_diagonal_misses_by_far_more_than_the_reference_can_change(diagonal, load):
     """An error moves by no more than the distance of two references; P1 at 1/64 is within 5e-4 of
     1/512 in L2.
     """
@@ -91,10 +90,9 @@ def test_another_diagonal_misses_by_far_more_than_the_reference_can_bend(diagona
     assert max(abs(l2[element] - printed[element]) for element in printed) > 0.004
 
 
-def test_what_one_changed_choice_leaves_of_the_table():
+def test_what_one_changed_option_leaves_of_the_table():
     rows = {
-        tuple(row[choice] for choice in ("load", "rule", "h1")): row["matched"]
-        for row in combined()
+        tuple(row[name] for name in ("load", "rule", "h1")): row["matched"] for row in combined()
     }
     assert rows["centroid", "exact", "semi"] == 12  # the L2 errors
     assert rows["centroid", "centroid", "full"] == 4
@@ -150,10 +148,10 @@ def test_a_tie_is_one_to_round_off(ratio, word):
 
 def test_one_at_a_time():
     rows = study.one_at_a_time(combined_quick())
-    changed = [[choice for choice in CHOICES if row[choice] != PAPER[choice]] for row in rows]
+    changed = [[name for name in OPTIONS if row[name] != PAPER[name]] for row in rows]
     assert changed[0] == []
     assert [names[0] for names in changed[1:]] == [
-        c for c, found in CHOICES.items() for _ in found[1:]
+        c for c, found in OPTIONS.items() for _ in found[1:]
     ]
     assert all(len(names) == 1 for names in changed[1:])
 
@@ -163,9 +161,9 @@ def test_combinations_share_solves(monkeypatch):
     meanings.
     """
     solved = []
-    solve = choices.solve
+    solve = solves.solve
     monkeypatch.setattr(
-        choices, "solve", lambda problem: solved.append(problem.b.size) or solve(problem)
+        solves, "solve", lambda problem: solved.append(problem.b.size) or solve(problem)
     )
     rows = errors_of_diagonal(SCENE.problem, "criss-cross", (2, 4), 8)
     assert len(solved) == len(LOADS) * (2 * 2 + 1)
@@ -188,43 +186,33 @@ def test_coarse_levels_are_held_against_their_own_numbers():
 
 
 def test_the_page_says_what_was_found():
-    title, blocks = page(combined(), falling(), 512)
-    assert "quick" not in title
-    text = to_markdown(title, blocks)
+    text = page("markdown", combined(), falling(), 512)
+    assert "quick" not in text
     assert (
-        "All 24 errors come out under 4 of them: diagonal falling, load by centroid, norms exact or by midpoints"
-        in text
+        "All 24 errors come out under 4 of them: diagonal falling, load by centroid,"
+        " norms exact or by midpoints" in text
     )
     assert (
-        "CF has the smaller $L^2$ error at $N$ = 2 and NCF has the smaller $L^2$ error at $N$ = 4, 8, 16, 32"
-        in text
+        "CF has the smaller $L^2$ error at $N$ = 2 and NCF has the smaller $L^2$ error"
+        " at $N$ = 4, 8, 16, 32" in text
     )
     assert "| load: exact | NNNNNN | 0 | 0 | 48 % | 1.9, 2.0 | 1.0, 1.0 |" in text
     assert all(f"]({name}.png)" in text for name in ("sensitivity_matches", "sensitivity_ratios"))
 
 
 def test_the_quick_page_is_not_mistaken_for_the_full_one():
-    title, blocks = page(combined_quick(), quick(), 64, quick=True)
-    assert title.endswith("(quick variant)")
-    text = to_markdown(title, blocks)
+    text = page("markdown", combined_quick(), quick(), 64, quick=True)
+    assert text.splitlines()[0].endswith("(quick variant)")
     assert "$N$ up to 16 and a reference with $h = 1/64$, which is not the paper's" in text
     assert "No combination matches all 16 errors" in text
 
 
-def test_a_page_in_latex_and_in_markdown():
-    blocks = [
-        Text("50 % of $a_1$, see @b_c and @t-u."),
-        Figure("b_c", "A & B"),
-        Table("t-u", "T", ("x", "y"), [["p", "1"]]),
-    ]
-    latex, markdown = to_latex("A_B", blocks), to_markdown("A_B", blocks)
-    assert latex.startswith(
-        "\\section{A\\_B}\n50 \\% of $a_1$, see \\autoref{b_c} and \\autoref{t-u}.\n"
-    )
-    assert "\\includegraphics{b_c.pdf}\n\\caption{A \\& B}\n\\label{b_c}" in latex
-    assert "\\midrule\np & 1 \\\\\n\\bottomrule" in latex
-    assert markdown.startswith("# A_B\n\n50 % of $a_1$, see Figure 1 and Table 1.\n")
-    assert "| x | y |\n| :--- | ---: |\n| p | 1 |\n" in markdown
+def test_the_fragment_says_the_same():
+    text = page("latex", combined(), falling(), 512)
+    assert text.startswith("\\section{Sensitivity to what the paper leaves open}\n")
+    assert r"(\autoref{figure:sensitivity_matches})" in text
+    assert r"load: exact & NNNNNN & 0 & 0 & 48\,\% & 1.9, 2.0 & 1.0, 1.0 \\" in text
+    assert text.count("{") == text.count("}")
 
 
 def test_the_figures_show_the_rows(tmp_path):

@@ -11,7 +11,7 @@ from signorini.errors.reference import ReferenceErrors
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize
 from signorini.solvers import METHODS, solve
-from signorini.studies.rivals.timed import Arena
+from signorini.studies.rivals.worker import Worker
 from signorini.studies.stability import digits as stability_digits
 from signorini.studies.stability import proof as stability_proof
 from signorini.studies.stability import round_off as stability_floor
@@ -78,11 +78,11 @@ def test_the_families_are_what_their_names_say():
 
 
 def test_a_rival_without_end_is_ended():
-    arena = Arena(lambda seconds: time.sleep(seconds) or seconds, patience=1.0)
-    assert arena.ask(0.0) == 0.0
-    assert arena.ask(60.0) is None
-    assert arena.ask(0.1) == 0.1
-    arena.close()
+    worker = Worker(lambda seconds: time.sleep(seconds) or seconds, time_limit=1.0)
+    assert worker.ask(0.0) == 0.0
+    assert worker.ask(60.0) is None
+    assert worker.ask(0.1) == 0.1
+    worker.close()
 
 
 def rows(solver="ours", **values):

@@ -24,7 +24,7 @@ quick:
 """
 QUICK = ("benchmark", "--config", "quick=true")
 POINTS = 2 * len(METHODS) * 2  # elements, routes, levels 2 and 4
-DUELS = 2 * len(RIVALS)
+COMPARISONS = 2 * len(RIVALS)
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def rows(project, name):
 def test_every_element_route_and_level_is_measured(built):
     project, run, _ = built
     assert run.jobs["benchmark_point"] == POINTS
-    assert run.jobs["benchmark_rival"] == DUELS
+    assert run.jobs["benchmark_rival"] == COMPARISONS
     found = rows(project, "benchmark.csv")
     assert len(found) == POINTS
     assert {row["method"] for row in found} == set(METHODS)
@@ -103,7 +103,7 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     assert drawing == {"benchmark figure"}
 
 
-def test_rivals_are_inputs_of_their_duels(built):
+def test_rivals_are_inputs_of_their_comparisons(built):
     inputs = inputs_of_commands(
         built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text
     )
@@ -160,7 +160,7 @@ def test_a_solver_that_changes_is_measured_again_and_a_figure_is_not(built, tmp_
     path = "src/signorini/solvers/contact.py"
     project.write(path, (project / path).read_text() + "# a comment\n")
     jobs = project.jobs(*QUICK)
-    assert (jobs["benchmark_point"], jobs["benchmark_rival"]) == (POINTS, DUELS)
+    assert (jobs["benchmark_point"], jobs["benchmark_rival"]) == (POINTS, COMPARISONS)
 
 
 @pytest.mark.parametrize(

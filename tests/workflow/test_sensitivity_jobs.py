@@ -60,10 +60,13 @@ def test_the_full_study_is_another(built):
     assert built[0].jobs("sensitivity", "--config", "quick=false") == JOBS
 
 
-def test_an_edited_page_solves_nothing_again(built, tmp_path):
+@pytest.mark.parametrize(
+    ("name", "comment"), [("page.py", "# a comment\n"), ("page.md.j2", "{# a comment #}\n")]
+)
+def test_an_edited_page_solves_nothing_again(built, tmp_path, name, comment):
     project = built[0].copy(tmp_path / "project")
-    path = "src/signorini/studies/sensitivity/page.py"
-    project.write(path, (project / path).read_text(encoding="utf-8") + "# a comment\n")
+    path = f"src/signorini/studies/sensitivity/{name}"
+    project.write(path, (project / path).read_text(encoding="utf-8") + comment)
     assert project.jobs(*QUICK) == {"sensitivity": 1}
 
 

@@ -1,4 +1,4 @@
-"""Change one choice at a time that the paper leaves open, and tell how far its table moves.
+"""Change one option at a time that the paper leaves open, and tell how far its table moves.
 
 example:
   signorini effects config/scenes/paper.yaml errors.csv -o effects.csv
@@ -9,7 +9,7 @@ from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.report.result_files import read_errors
 from signorini.scene.scene import naming
 from signorini.storage import write_csv
-from signorini.studies.sensitivity.effects import effects_of_choices
+from signorini.studies.sensitivity.effects import effects_of_options
 
 _NORMS = ("l2", "h1_semi", "h1")
 
@@ -22,12 +22,12 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Solve with each choice changed, and compare."""
+    """Solve with each option changed, and compare."""
     scene = scene_of(arguments.scene)
     rows = read_errors(arguments.errors, scene.section("elements", "levels"), numbers=_NORMS)
     errors = {(row["element"], int(row["n"]), norm): row[norm] for row in rows for norm in _NORMS}
     with naming(scene.source):
-        changes = effects_of_choices(
+        changes = effects_of_options(
             scene.problem,
             errors,
             scene.elements,
@@ -36,6 +36,6 @@ def run(arguments):
             scene.document["norms"],
         )
     if arguments.output:
-        rows = [{"choice": choice, "change": change} for choice, change in changes.items()]
+        rows = [{"choice": option, "change": change} for option, change in changes.items()]
         write_csv(arguments.output, rows)
-    return Outcome(f"effects: {len(changes)} choices changed, one at a time", changes)
+    return Outcome(f"effects: {len(changes)} options changed, one at a time", changes)

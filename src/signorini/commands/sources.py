@@ -3,10 +3,11 @@
 A workflow makes them inputs of its jobs, so that an edit of any of them runs those jobs again. An
 import counts wherever it stands, also within a function. So does a text that is the full name of a
 module, alone or before a colon: modules that are loaded by name, as routes and rivals are, stand in
-a table of such texts.
+a table of such texts. So does a text that names a template of a page.
 """
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
@@ -67,15 +68,19 @@ def modules_from(*names, reader=False):
 @cache
 def _named(path):
     """The files that executing a file, or any function of it, may load."""
+    text = path.read_text(encoding="utf-8")
+    templates = {_ROOT / name for name in re.findall(r'"([\w/]+\.\w+\.j2)"', text)}
+    if path.suffix == ".j2":
+        return templates
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
             names.add(node.value.partition(":")[0])
-    return {file for name in names for file in _executed(name)}
+    return templates | {file for name in names for file in _executed(name)}
 
 
 @cache

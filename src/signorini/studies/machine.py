@@ -10,7 +10,7 @@ OURS = ("numpy", "scipy", "scikit-fem", "snakemake")
 
 
 def describe(packages=OURS):
-    """The machine and the programs at hand.
+    """The machine and the programs at hand; ``machine.md.j2`` puts it in words.
 
     Parameters
     ----------
@@ -27,12 +27,11 @@ def describe(packages=OURS):
     import numpy as np
 
     blas = np.show_config(mode="dicts")["Build Dependencies"]["blas"]
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     return {
-        "processor": _of_file("/proc/cpuinfo", "model name")
-        or platform.processor()
-        or platform.machine(),
+        "processor": _processor() or platform.processor() or platform.machine(),
         "cores": os.cpu_count(),
-        "memory": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
+        "memory": round(memory / 1e9, 1),
         "system": f"{platform.system()} {platform.release()}",
         "python": platform.python_version(),
         "blas": f"{blas['name']} {blas['version']}",
@@ -43,17 +42,6 @@ def describe(packages=OURS):
     }
 
 
-def sentence(machine):
-    """What `describe` found, in a line of plain text."""
-    versions = ", ".join(f"{name} {number}" for name, number in machine["versions"].items())
-    threads = "one thread" if machine["threads"] == 1 else f"{machine['threads']} threads"
-    return (
-        f"{machine['processor']}, {machine['cores']} cores, {machine['memory']:g} GB, {machine['system']}; "
-        f"Python {machine['python']}, {versions}, BLAS {machine['blas']}; {threads} per process; "
-        f"load average {machine['load']:.2f} at the start, {machine['date']}"
-    )
-
-
 def _version(name):
     try:
         return version(name)
@@ -61,7 +49,7 @@ def _version(name):
         return None
 
 
-def _of_file(path, key):
-    path = Path(path)
+def _processor():
+    path = Path("/proc/cpuinfo")
     lines = path.read_text().splitlines() if path.is_file() else []
-    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith(key)), None)
+    return next((line.split(":", 1)[1].strip() for line in lines if "model name" in line), None)

@@ -11,8 +11,7 @@ from signorini.commands.inputs import add_drawings
 from signorini.figures import benchmark
 from signorini.figures.style import save_figure
 from signorini.storage import read_csv, read_json
-from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
-from signorini.studies.benchmark.summary import series
+from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, series
 
 _FIGURES = {
     "error": lambda found, rivals, summary: benchmark.draw_error(found),

@@ -6,8 +6,9 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
+from signorini.report.document import render
 from signorini.storage import write_json
-from signorini.studies.machine import OURS, describe, sentence
+from signorini.studies.machine import OURS, describe
 from signorini.studies.rivals import RIVALS
 
 
@@ -22,4 +23,5 @@ def run(arguments):
     machine = describe(packages)
     if arguments.output:
         write_json(arguments.output, machine)
-    return Outcome(sentence(machine), machine)
+    words = render("studies/machine.md.j2", "markdown", machine=machine)
+    return Outcome(words.strip(), machine)

@@ -1,6 +1,6 @@
 """Measure one point: time, memory and counts of a scene, an element, a level and a route.
 
-A level is left out where the level before foretells more than the limits of the settings.
+A level is left out where the level before predicts more than the limits of the settings.
 
 example:
   signorini benchmark point config/scenes/corner.yaml --element P1 --n 64 --method direct \\

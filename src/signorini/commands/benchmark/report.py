@@ -10,7 +10,7 @@ from signorini.commands.benchmark.options import add_scenes, add_settings, scene
 from signorini.commands.catalogue import Outcome
 from signorini.storage import read_csv, read_json, write_text
 from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
-from signorini.studies.benchmark.report import Report
+from signorini.studies.benchmark.report import page
 from signorini.studies.benchmark.settings import own_references
 
 
@@ -26,13 +26,13 @@ def add_arguments(parser):
 def run(arguments):
     """Write the page."""
     folder = arguments.folder
-    report = Report(
+    shown = (
         read_csv(folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ERRORS)),
         read_csv(folder / "rivals.csv", numbers=RIVAL_NUMBERS),
         read_json(folder / "summary.json"),
         read_json(folder / "machine.json"),
         settings_of(arguments) | {"truths": own_references(scenes_of(arguments))},
     )
-    write_text(folder / "benchmark.tex", report.tex())
-    write_text(folder / "benchmark.md", report.markdown())
-    return Outcome(f"report: {len(report.series)} series, {len(report.summary['duels'])} duels")
+    write_text(folder / "benchmark.tex", page("latex", *shown))
+    write_text(folder / "benchmark.md", page("markdown", *shown))
+    return Outcome(f"report: {len(shown[0])} points, {len(shown[1])} rows of rivals")

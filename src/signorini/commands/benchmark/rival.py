@@ -9,7 +9,7 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.storage import write_csv
 from signorini.studies.benchmark.columns import RIVAL
-from signorini.studies.benchmark.rivals import duel, guarded, patience
+from signorini.studies.benchmark.comparison import compare, rows_apart, time_limit
 
 
 def add_arguments(parser):
@@ -22,20 +22,13 @@ def add_arguments(parser):
     add_output(parser, "the rows, .csv")
 
 
-def rounds(rival, path, mesh, element, levels, seconds):
-    """The rows of the comparison, from what can be sent to another process."""
-    scene = scene_of(path)
-    domain = domain_of(scene, mesh)
-    yield from duel(rival, domain, scene.problem, element, levels, seconds)
-
-
 def run(arguments):
     """Measure, and write a row for each level and route of ours."""
     settings, scene = settings_of(arguments)["rivals"], scene_of(arguments.scene)
     levels, seconds = settings["levels"], settings["seconds"]
-    task = (arguments.rival, arguments.scene, arguments.mesh, arguments.element, levels, seconds)
-    found, trouble = guarded(rounds, task, patience(seconds))
-    rows = [row for level in found for row in level]
+    domain = domain_of(scene, arguments.mesh)
+    task = (arguments.rival, domain, scene.problem, arguments.element, levels, seconds)
+    rows, trouble = rows_apart(compare(*task), time_limit(seconds))
     if trouble:
         missing = [n for n in levels if n not in {row.get("n") for row in rows}]
         level = missing[0] if missing else levels[-1]

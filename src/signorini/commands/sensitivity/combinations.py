@@ -1,4 +1,4 @@
-"""Hold every combination of choices against the published numbers.
+"""Compare every combination of options with the published numbers.
 
 example:
   signorini sensitivity combinations config/scenes/paper.yaml rising.csv falling.csv \\

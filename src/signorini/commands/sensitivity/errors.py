@@ -1,4 +1,4 @@
-"""Solve a scene with one diagonal of the cells and measure its errors under all other choices.
+"""Solve a scene with one diagonal of the cells and measure its errors under all other options.
 
 example:
   signorini sensitivity errors config/scenes/paper.yaml --diagonal rising -o rising.csv
@@ -8,8 +8,8 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
 from signorini.storage import write_csv
-from signorini.studies.sensitivity.solves import errors_of_diagonal
-from signorini.studies.sensitivity.unsaid import count_solves
+from signorini.studies.sensitivity.errors import errors_of_diagonal
+from signorini.studies.sensitivity.options import count_solves
 
 
 def add_arguments(parser):

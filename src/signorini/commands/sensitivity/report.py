@@ -11,7 +11,6 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_scene, scene_of
 from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
 from signorini.storage import read_table, write_text
-from signorini.studies.page import to_latex, to_markdown
 from signorini.studies.sensitivity.combinations import combinations, read_errors
 from signorini.studies.sensitivity.page import page
 
@@ -30,7 +29,7 @@ def run(arguments):
     scene, quick = scene_of(arguments.scene), arguments.quick
     errors = read_errors(arguments.errors, levels_of(scene, quick))
     rows = combinations(errors, read_table(arguments.published))
-    title, blocks = page(rows, errors, reference_of(scene, quick), quick)
-    write_text(arguments.output / "sensitivity.tex", to_latex(title, blocks))
-    write_text(arguments.output / "sensitivity.md", to_markdown(title, blocks))
-    return Outcome(f"page: {title}")
+    shown = (rows, errors, reference_of(scene, quick), quick)
+    write_text(arguments.output / "sensitivity.tex", page("latex", *shown))
+    write_text(arguments.output / "sensitivity.md", page("markdown", *shown))
+    return Outcome(f"page: sensitivity, {len(rows)} combinations")

@@ -1,6 +1,4 @@
-"""What a solve does, in counts and bytes: a guard against slower code that no busy machine can
-fool.
-"""
+"""What a solve does, in counts and bytes: no busy machine can hide slower code from them."""
 
 import tracemalloc
 from dataclasses import asdict
@@ -17,10 +15,8 @@ ALLOWED = 0.1  # growth
 _UNKNOWNS = 10_000
 
 
-def counted_level(scene, element):
-    """The first level of a scene, by doubling its coarsest, that has at least 10,000 free unknowns,
-    discretised.
-    """
+def _counted_level(scene, element):
+    """The first level, by doubling the coarsest, with at least so many free unknowns."""
     n = scene.levels[0]
     while True:
         problem = discretize(scene, element, n)
@@ -30,13 +26,21 @@ def counted_level(scene, element):
 
 
 def count_scene(scene, element):
-    """A row per route that applies: ``method``, ``n``, ``unknowns``, the counts, and the peak bytes
-    per unknown.
+    """Count what each route that applies does.
 
-    The bytes are those that Python's allocators gave out during the solve, assembly included where
-    a route needs the matrix; what SuperLU allocates by itself is not among them.
+    Parameters
+    ----------
+    scene : Scene
+    element : {"P1", "CR"}
+
+    Returns
+    -------
+    list of dict
+        A row per route: ``method``, ``n``, ``unknowns``, the counts, and ``bytes_per_unknown``: the
+        peak of what Python's allocators gave out during the solve, assembly included where a route
+        needs the matrix. What SuperLU allocates by itself is not among them.
     """
-    n, problem = counted_level(scene, element)
+    n, problem = _counted_level(scene, element)
     coarse = discretize(scene, element, scene.levels[0])
     rows = []
     for method in METHODS:
@@ -45,13 +49,8 @@ def count_scene(scene, element):
         except SolverError:
             continue
         problem.__dict__.pop("A", None)
-        what = {
-            "scene": scene.name,
-            "element": element,
-            "method": method,
-            "n": n,
-            "unknowns": problem.free.size,
-        }
+        what = {"scene": scene.name, "element": element, "method": method}
+        what |= {"n": n, "unknowns": problem.free.size}
         rows.append(what | _count(problem, method))
     return rows
 
@@ -68,7 +67,12 @@ def _count(problem, method):
 
 
 def changes(recorded, found):
-    """Compare rows of `count_scene` with recorded ones.
+    """Compare counts with recorded ones.
+
+    Parameters
+    ----------
+    recorded, found : list of dict
+        Rows of `count_scene`.
 
     Returns
     -------
@@ -76,19 +80,15 @@ def changes(recorded, found):
         Counts that are more than a tenth larger, or smaller, with both values; routes that are new
         or gone are among the grown.
     """
-    before = {_key(row): row for row in recorded}
-    after = {_key(row): row for row in found}
-    grown = [f"{' '.join(key)}: not in the record" for key in after if key not in before]
-    grown += [
-        f"{' '.join(key)}: recorded, but the route no longer applies"
-        for key in before
-        if key not in after
-    ]
+    before, after = ({_key(row): row for row in rows} for rows in (recorded, found))
+    grown = [f"{key}: not in the record" for key in after.keys() - before.keys()]
+    gone = before.keys() - after.keys()
+    grown += [f"{key}: recorded, but the route no longer applies" for key in gone]
     shrunk = []
     for key in before.keys() & after.keys():
         for name in GUARDED:
             old, new = float(before[key][name]), float(after[key][name])
-            line = f"{' '.join(key)}: {name} {old:g} -> {new:g}"
+            line = f"{key}: {name} {old:g} -> {new:g}"
             if new > (1.0 + ALLOWED) * old:
                 grown.append(line)
             elif new < (1.0 - ALLOWED) * old:
@@ -97,4 +97,4 @@ def changes(recorded, found):
 
 
 def _key(row):
-    return row["scene"], row["element"], row["method"]
+    return f"{row['scene']} {row['element']} {row['method']}"

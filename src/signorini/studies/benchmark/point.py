@@ -1,6 +1,4 @@
-"""One measured point: a scene, an element, a level and a route, from the scene's statement to its
-solution.
-"""
+"""One measured point: a scene, an element, a level and a route, from statement to solution."""
 
 import gc
 import os
@@ -17,16 +15,15 @@ from signorini.exceptions import SolverError
 from signorini.fem.problem import Problem, discretize_on
 from signorini.mesh.domain import make_domain
 from signorini.solvers import solve
+from signorini.studies.benchmark.columns import TIMES, with_range
 from signorini.work import counting
 
-# What a level costs that has four times the unknowns of the one before: somewhat more than four
-# times as much.
+# A level has four times the unknowns of the one before and costs somewhat more than four times.
 _GROWTH = {"seconds": 5.0, "memory": 4.5}
 
 
 def measure(statement, element, n, method, repeats, warm_up):
-    """Measure one point in this process, which should be fresh: its peak memory is the process's
-    own.
+    """Measure one point in this process, which should be fresh: the peak memory is the process's.
 
     Parameters
     ----------
@@ -43,7 +40,7 @@ def measure(statement, element, n, method, repeats, warm_up):
     Returns
     -------
     row : dict
-        Those of `benchmark_columns.POINT` that follow from the measurement.
+        Those of `columns.POINT` that follow from the measurement.
     u : ndarray or None
         The solution; None where the route does not apply, or fails: the row's status and note then
         say so.
@@ -53,10 +50,8 @@ def measure(statement, element, n, method, repeats, warm_up):
         _run(statement, element, warm_up, method)
         gc.collect()
         before = memory_now()
-        runs, begun = [], time.perf_counter()
-        while len(runs) < repeats["least"] or (
-            len(runs) < repeats["most"] and time.perf_counter() - begun < repeats["seconds"]
-        ):
+        runs, start = [], time.perf_counter()
+        while _goes_on(len(runs), time.perf_counter() - start, repeats):
             problem = solution = None
             gc.collect()
             seconds, work, problem, solution = _run(statement, element, n, method)
@@ -64,15 +59,15 @@ def measure(statement, element, n, method, repeats, warm_up):
     except SolverError as error:
         return {"status": "skipped", "note": str(error), "load": load}, None
     peak = memory_peak()
-    row = {
-        "status": "measured",
-        "dofs": problem.free.size,
-        "repeats": len(runs),
-        "peak": peak,
-        "load": load,
-    }
-    row |= spread(runs) | {"memory": peak - before} | asdict(work)
+    row = {"status": "measured", "dofs": problem.free.size, "repeats": len(runs), "load": load}
+    row |= {"memory": peak - before, "peak": peak} | asdict(work)
+    for name in TIMES:
+        row |= spread(name, [run[name] for run in runs])
     return row | {"iterations": solution.iterations, "residual": solution.residual}, solution.u
+
+
+def _goes_on(done, seconds, repeats):
+    return done < repeats["least"] or (done < repeats["most"] and seconds < repeats["seconds"])
 
 
 def _run(statement, element, n, method):
@@ -95,9 +90,7 @@ def _run(statement, element, n, method):
 
 
 def _timed(problem):
-    """The same problem, and a list of the seconds that assembling its matrix took, whenever a route
-    asks for it.
-    """
+    """The same problem, and a list of the seconds that assembling its matrix will have taken."""
     seconds = []
 
     class Timed(Problem):
@@ -111,26 +104,41 @@ def _timed(problem):
     return Timed(**{field.name: getattr(problem, field.name) for field in fields(Problem)}), seconds
 
 
-def spread(runs):
-    """Median, least and largest of each time over the runs (dicts of seconds): `total`,
-    `total_min`, `total_max`.
+def spread(name, values):
+    """Median, least and largest of measured values.
+
+    Parameters
+    ----------
+    name : str
+    values : sequence of float
+
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
+    >>> spread("total", [2.0, 1.0, 4.0])
+    {'total': 2.0, 'total_min': 1.0, 'total_max': 4.0}
     """
-    row = {}
-    for name in runs[0]:
-        values = [run[name] for run in runs]
-        row |= {
-            name: statistics.median(values),
-            f"{name}_min": min(values),
-            f"{name}_max": max(values),
-        }
-    return row
+    found = statistics.median(values), min(values), max(values)
+    return dict(zip(with_range(name), found, strict=True))
 
 
 def why_not(before, limits):
-    """Say why a level is left out, from the row of the one before it (None for the first), or None
-    if it is not.
+    """Say why a level is left out, from what the one before it took.
 
-    `limits` are ``seconds`` of one run and ``megabytes``.
+    Parameters
+    ----------
+    before : dict or None
+        The row of the level before; None for the first level.
+    limits : dict
+        ``seconds`` of one run, and ``megabytes``.
+
+    Returns
+    -------
+    str or None
+        None if it is not left out.
     """
     if before is None:
         return None
@@ -146,7 +154,17 @@ def why_not(before, limits):
 
 
 def difference(u, other):
-    """Largest difference of two solutions over max |u|, dimensionless."""
+    """Largest difference of two solutions relative to max abs(u).
+
+    Parameters
+    ----------
+    u, other : ndarray, shape (ndof,)
+
+    Returns
+    -------
+    float
+        Dimensionless.
+    """
     return float(np.max(np.abs(u - other)) / (np.max(np.abs(u)) or 1.0))
 
 
@@ -156,7 +174,7 @@ def memory_now():
 
 
 def memory_peak():
-    """Largest resident bytes of this process so far; of this program alone where the system tells."""
+    """Largest resident bytes so far, where the system tells of this program alone."""
     return _status("VmHWM") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 

@@ -2,48 +2,47 @@
 
 import math
 import statistics
-from itertools import pairwise
+from itertools import pairwise, product
+
+import pandas as pd
 
 from signorini.errors.rates import slopes
-from signorini.studies.benchmark.columns import ERRORS
+from signorini.studies.benchmark.columns import ERRORS, SERIES, series
 
 NORMS = ("l2", "h1")
 TARGETS = (1e-1, 1e-2, 1e-3, 1e-4)
 COSTS = ("total", "total_min", "total_max", "dofs", "memory")
-_FLOOR = {
-    "memory": 4096
-}  # bytes: it is measured in pages, and a coarse level may need none that are new
-_TOLD = 1e5  # bytes: less is round-off of the allocator
+STATUSES = ("solved", "inaccurate", "failed", "left out", "absent")
+_PAGE = 4096  # bytes: memory is measured in pages, and a coarse level may need none that is new
+_ROUND_OFF = 1e5  # bytes: less is round-off of the allocator
 _FITTED = 4  # finest levels that an exponent is fitted to
 
 
 def with_errors(points, errors):
-    """The rows of the points with the errors of their scene, element and level; None where there
-    are none.
+    """Add the errors of their scene, element and level to the rows of the points.
 
-    `errors` maps each scene to the rows of its errors.csv. All routes of an element share them: the
-    column `difference` of a point says how far its solution is from the one that they were computed
-    of.
+    Parameters
+    ----------
+    points : list of dict
+    errors : dict
+        Scene -> rows of its errors.csv. All routes of an element share them: the column
+        `difference` of a point says how far its solution is from the one that they are of.
+
+    Returns
+    -------
+    list of dict
+        The norms are None where there are no errors.
     """
-    found = {
-        (scene, row["element"], int(row["n"])): row
-        for scene, rows in errors.items()
-        for row in rows
-    }
-    none = dict.fromkeys(ERRORS)
-    keyed = [
-        (row, found.get((row["scene"], row["element"], int(row["n"])), none)) for row in points
-    ]
-    return [row | {norm: known[norm] for norm in ERRORS} for row, known in keyed]
-
-
-def series(points):
-    """(scene, element, method) -> its measured points, coarsest first."""
-    found = {}
+    found = {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
+    rows = []
     for row in points:
-        if row["status"] == "measured":
-            found.setdefault((row["scene"], row["element"], row["method"]), []).append(row)
-    return {key: sorted(rows, key=lambda row: int(row["n"])) for key, rows in found.items()}
+        known = found.get((row["scene"], *_level(row)), {})
+        rows.append(row | {norm: known.get(norm) for norm in ERRORS})
+    return rows
+
+
+def _level(row):
+    return row["element"], int(row["n"])
 
 
 def reach(points, targets=TARGETS):
@@ -59,24 +58,15 @@ def reach(points, targets=TARGETS):
     -------
     list of dict
         ``scene``, ``element``, ``method``, ``norm``, ``target``, the `COSTS` (None where the error
-        is not reached) and
-        ``status``: "between levels", "coarsest level", which is better than the target already, or
-        "not reached".
+        is not reached) and ``status``: "between levels", "coarsest level", which is better than the
+        target already, or "not reached".
     """
     rows = []
-    for (scene, element, method), found in series(points).items():
-        for norm in NORMS:
-            shown = [row for row in found if row[norm]]
-            for target in targets:
-                status, costs = _cost(shown, norm, target)
-                what = {
-                    "scene": scene,
-                    "element": element,
-                    "method": method,
-                    "norm": norm,
-                    "target": target,
-                }
-                rows.append(what | costs | {"status": status})
+    for key, found in series(points).items():
+        for norm, target in product(NORMS, targets):
+            what = dict(zip(SERIES, key, strict=True)) | {"norm": norm, "target": target}
+            status, costs = _cost([row for row in found if row[norm]], norm, target)
+            rows.append(what | costs | {"status": status})
     return rows
 
 
@@ -96,24 +86,21 @@ def _between(coarse, fine, cost, share):
 
 
 def _at_least(row, cost):
-    return max(row[cost], _FLOOR.get(cost, 0.0))
+    return max(row[cost], _PAGE if cost == "memory" else 0.0)
 
 
 def fastest(reached):
-    """(scene, norm, target) -> element -> its row of least time, of all routes; no entry where it
-    is not reached.
-    """
+    """(scene, norm, target) -> element -> its row of least time, of all routes that reach it."""
+    frame = pd.DataFrame(reached).dropna(subset="total").sort_values("total", kind="stable")
+    frame = frame.drop_duplicates(["scene", "norm", "target", "element"]).sort_index()
     best = {}
-    for row in reached:
-        if row["total"] is not None:
-            elements = best.setdefault((row["scene"], row["norm"], row["target"]), {})
-            if row["element"] not in elements or row["total"] < elements[row["element"]]["total"]:
-                elements[row["element"]] = row
+    for row in frame.to_dict("records"):
+        best.setdefault((row["scene"], row["norm"], row["target"]), {})[row["element"]] = row
     return best
 
 
 def better(rows):
-    """Which of two elements gets an error for less, per cost: ``(element or None, factor)``.
+    """Which of two elements gets an error for less, per cost.
 
     Parameters
     ----------
@@ -134,7 +121,7 @@ def better(rows):
     for cost in ("total", "dofs", "memory"):
         x, y = _at_least(a, cost), _at_least(b, cost)
         found[cost] = (one if x < y else other, max(x, y) / min(x, y))
-    if min(a["memory"], b["memory"]) < _TOLD:
+    if min(a["memory"], b["memory"]) < _ROUND_OFF:
         del found["memory"]
     if a["total_min"] <= b["total_max"] and b["total_min"] <= a["total_max"]:
         found["total"] = (None, found["total"][1])
@@ -152,42 +139,47 @@ def growth(points):
         none.
     """
     rows = []
-    for (scene, element, method), found in series(points).items():
+    for key, found in series(points).items():
         finest = found[-_FITTED:]
         for quantity in ("total", "memory"):
-            if len(finest) < 3 or not all(row[quantity] > 0 for row in finest):
+            values = [row[quantity] for row in finest]
+            if len(finest) < 3 or min(values) <= 0:
                 continue
-            exponent = slopes([row["dofs"] for row in finest], [row[quantity] for row in finest])[
-                "fit"
-            ]
+            exponent = slopes([row["dofs"] for row in finest], values)["fit"]
+            what = dict(zip(SERIES, key, strict=True)) | {"quantity": quantity}
             levels = {"first": int(finest[0]["n"]), "last": int(finest[-1]["n"])}
-            what = {"scene": scene, "element": element, "method": method, "quantity": quantity}
             rows.append(what | {"exponent": exponent} | levels)
     return rows
 
 
-def bending(coarse, fine):
-    """What a coarser reference does to errors: rows of the changes that it makes, relative to those
-    by the finer one.
+def reference_bias(coarse, fine):
+    """How a coarser reference changes errors, relative to those by a finer one.
 
-    Both map a scene to the rows of an errors.csv.
+    Parameters
+    ----------
+    coarse, fine : dict
+        Scene -> rows of its errors.csv.
+
+    Returns
+    -------
+    list of dict
+        ``scene``, ``element``, ``n``, ``norm``, the errors ``coarse`` and ``fine``, ``change``.
     """
-    rows = []
-    for scene, found in coarse.items():
-        true = {(row["element"], int(row["n"])): row for row in fine[scene]}
-        for row in found:
-            key = (row["element"], int(row["n"]))
-            for norm in (norm for norm in NORMS if key in true and row[norm]):
-                by_fine = true[key][norm]
-                what = {"scene": scene, "element": key[0], "n": key[1], "norm": norm}
-                rows.append(
-                    what
-                    | {"coarse": row[norm], "fine": by_fine, "change": row[norm] / by_fine - 1.0}
-                )
-    return rows
+    if not coarse:
+        return []
+    frame = _errors(coarse).to_frame("coarse").join(_errors(fine).rename("fine"), how="inner")
+    frame["change"] = frame["coarse"] / frame["fine"] - 1.0
+    return frame[frame["coarse"] != 0.0].reset_index().to_dict("records")
 
 
-def duels(rivals):
+def _errors(found):
+    """The errors that there are, by scene, element, n and norm."""
+    frame = pd.DataFrame([{"scene": name, **row} for name, rows in found.items() for row in rows])
+    frame = frame.astype({"n": int}).set_index(["scene", "element", "n"])
+    return frame[list(NORMS)].rename_axis(columns="norm").stack().dropna().astype(float)
+
+
+def comparisons(rivals):
     """Sum up the rivals: per rival and route of ours, over all problems both solved.
 
     Parameters
@@ -202,53 +194,53 @@ def duels(rivals):
         1) and ``losses``, and ``ratio``, ``ratio_min``, ``ratio_max``: geometric mean, least and
         largest of its time over ours.
     """
-    pairs = {}
-    for row in rivals:
-        if row["ratio"] is not None and row["status"] != "failed":
-            pairs.setdefault((row["rival"], row["ours"]), []).append(row)
-    return [_duel(*key, rows) for key, rows in pairs.items()]
-
-
-def _duel(rival, ours, rows):
-    wins = sum(row["ratio_max"] < 1.0 for row in rows)
-    losses = sum(row["ratio_min"] > 1.0 for row in rows)
-    return {
-        "rival": rival,
-        "ours": ours,
-        "problems": len(rows),
-        "wins": wins,
-        "even": len(rows) - wins - losses,
-        "losses": losses,
-        "ratio": math.exp(statistics.fmean(math.log(row["ratio"]) for row in rows)),
-        "ratio_min": min(row["ratio_min"] for row in rows),
-        "ratio_max": max(row["ratio_max"] for row in rows),
-    }
+    frame = pd.DataFrame(rivals)
+    frame = frame[frame["ratio"].notna() & (frame["status"] != "failed")]
+    frame = frame.assign(win=frame["ratio_max"] < 1.0, loss=frame["ratio_min"] > 1.0)
+    found = frame.groupby(["rival", "ours"], sort=False).agg(
+        problems=("ratio", "size"),
+        wins=("win", "sum"),
+        losses=("loss", "sum"),
+        ratio=("ratio", lambda ratios: math.exp(statistics.fmean(map(math.log, ratios)))),
+        ratio_min=("ratio_min", "min"),
+        ratio_max=("ratio_max", "max"),
+    )
+    found["even"] = found["problems"] - found["wins"] - found["losses"]
+    return found.reset_index().to_dict("records")
 
 
 def verdicts(rivals):
-    """Rival -> counts of its problems: ``solved``, ``inaccurate``, ``failed``, ``left out``,
-    ``absent``, and ``wrong``.
+    """Rival -> counts of its problems by status, and ``wrong``.
 
     ``wrong`` are those it claims to have solved although the residual says "failed"; they are among
     the failed.
     """
-    names = ("solved", "inaccurate", "failed", "left out", "absent")
-    found = {}
-    for row in {
-        (row["rival"], row["scene"], row["element"], row["n"]): row for row in rivals
-    }.values():
-        counts = found.setdefault(row["rival"], dict.fromkeys((*names, "wrong"), 0))
-        counts[row["status"]] += 1
-        counts["wrong"] += row["status"] == "failed" and row["claimed"] == 1
-    return found
+    frame = pd.DataFrame(rivals)
+    frame = frame.drop_duplicates(["rival", "scene", "element", "n"], keep="last")
+    counts = pd.crosstab(frame["rival"], frame["status"]).reindex(columns=STATUSES, fill_value=0)
+    wrong = (frame["status"] == "failed") & (frame["claimed"] == 1)
+    counts["wrong"] = wrong.groupby(frame["rival"]).sum()
+    return counts.to_dict("index")
 
 
 def summary(points, rivals, coarse, errors):
-    """All of the above, for a file: a dict of lists and dicts."""
+    """All of the above, for a file: a dict of lists and dicts.
+
+    Parameters
+    ----------
+    points, rivals : list of dict
+        Rows of benchmark.csv and rivals.csv, with numbers.
+    coarse, errors : dict
+        Scene -> rows of its errors.csv: by its own reference, and by the benchmark's.
+
+    Returns
+    -------
+    dict
+    """
     return {
         "reach": reach(points),
         "growth": growth(points),
-        "bending": bending(coarse, errors),
-        "duels": duels(rivals),
+        "reference_bias": reference_bias(coarse, errors),
+        "comparisons": comparisons(rivals),
         "verdicts": verdicts(rivals),
     }

@@ -1,13 +1,15 @@
 """Other people's solvers on our problems, each behind a small adapter.
 
 In the manner of benchopt: the data are a `Problem`, the objective is `kkt_residual(problem,
-answer.u)`, recomputed from the problem alone whatever a solver claims, and a solver is a function
-of a `BoundProblem`. Its matrices are prepared before the clock starts, and no package is imported
-before its rival is asked.
+answer.u)`, recomputed from the problem alone whatever a solver claims, and an adapter is a function
+of a `BoundProblem`, which returns x, whether the solver claims to have solved it, and its number of
+iterations. Matrices are prepared before the clock starts. No package is imported before its rival
+is asked.
 """
 
 import importlib
 import importlib.util
+import math
 import time
 from dataclasses import dataclass
 
@@ -38,7 +40,7 @@ class Answer:
     seconds: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class BoundProblem:
     """Minimise x'Kx/2 - f'x over the free unknowns x with x[contact] >= lower.
 
@@ -51,6 +53,10 @@ class BoundProblem:
     lower : ndarray, shape (nc,)
     floating : bool
         Whether there is no Dirichlet part: K is singular.
+    tolerance : float
+        Asked of the rival, in the terms in which it takes one.
+    deadline : float
+        When to stop, on the clock of `time.perf_counter`; kept as far as the rival can be stopped.
     """
 
     K: object
@@ -58,19 +64,19 @@ class BoundProblem:
     contact: np.ndarray
     lower: np.ndarray
     floating: bool
+    tolerance: float = 1e-9
+    deadline: float = math.inf
 
     @classmethod
     def of(cls, problem):
         """The problem without its Dirichlet unknowns."""
-        u = np.zeros_like(problem.b)
-        u[problem.fixed] = problem.fixed_values
+        u = _prescribed(problem)
         free = problem.free
         K = problem.A[free][:, free].tocsc()
         K.eliminate_zeros()
         load = (problem.b - problem.A @ u)[free]
-        return cls(
-            K, load, np.searchsorted(free, problem.contact), problem.lower, not problem.fixed.size
-        )
+        contact = np.searchsorted(free, problem.contact)
+        return cls(K, load, contact, problem.lower, not problem.fixed.size)
 
     @property
     def bounds(self):
@@ -78,6 +84,11 @@ class BoundProblem:
         bounds = np.full(self.f.size, -np.inf)
         bounds[self.contact] = self.lower
         return bounds
+
+    @property
+    def seconds_left(self):
+        """Seconds until the deadline."""
+        return self.deadline - time.perf_counter()
 
 
 @dataclass(frozen=True)
@@ -93,8 +104,7 @@ class Rival:
     install : str
         The command that installs it.
     adapter : str
-        ``"module:function"``, imported when asked for: (BoundProblem, tolerance, deadline) to (x,
-        claimed, iterations).
+        ``"module:function"``, imported when asked for.
     """
 
     name: str
@@ -114,33 +124,34 @@ class Rival:
         ----------
         problem : Problem
         tolerance : float
-            Asked of the rival, in the terms in which it takes one.
+            See `BoundProblem`.
         time_limit : float
-            In seconds; kept as far as the rival can be stopped.
+            In seconds.
 
         Returns
         -------
         Answer
         """
-        prepared = BoundProblem.of(problem)
+        bound = BoundProblem.of(problem)
+        bound.tolerance = tolerance
         module, function = self.adapter.split(":")
         adapter = getattr(importlib.import_module(module), function)
-        u = np.zeros_like(problem.b)
-        u[problem.fixed] = problem.fixed_values
+        u = _prescribed(problem)
         start = time.perf_counter()
+        bound.deadline = start + time_limit
         try:
             with np.errstate(all="ignore"):
-                u[problem.free], claimed, iterations = adapter(
-                    prepared, tolerance, start + time_limit
-                )
+                u[problem.free], claimed, iterations = adapter(bound)
         except Exception:  # whatever a foreign package raises on a hard problem
             u[:], claimed, iterations = np.nan, False, 0
         return Answer(u, bool(claimed), int(iterations), time.perf_counter() - start)
 
 
-def _rival(name, title, package, adapter, requirement=None):
-    install = f"pip install {requirement or package}"
-    return Rival(name, title, package, install, adapter)
+def _prescribed(problem):
+    """The Dirichlet values, and zero elsewhere."""
+    u = np.zeros_like(problem.b)
+    u[problem.fixed] = problem.fixed_values
+    return u
 
 
 # In full, so that the workflow finds them: they are inputs of the jobs that may import them.
@@ -148,22 +159,31 @@ _ACTIVE_SET = "signorini.studies.rivals.active_set"
 _BOUNDED = "signorini.studies.rivals.bounded"
 _QUADRATIC = "signorini.studies.rivals.quadratic"
 
+# Name, title, package, module and function of the adapter.
 _ALL = (
-    _rival("spsolve", "active set, SciPy spsolve", "scipy", f"{_ACTIVE_SET}:spsolve"),
-    _rival("superlu", "active set, SuperLU symmetric", "scipy", f"{_ACTIVE_SET}:superlu"),
-    _rival("pyamg", "active set, CG with PyAMG", "pyamg", f"{_ACTIVE_SET}:pyamg"),
-    _rival("ngsolve", "active set, NGSolve Cholesky", "ngsolve", f"{_ACTIVE_SET}:ngsolve"),
-    _rival("osqp", "OSQP", "osqp", f"{_QUADRATIC}:osqp"),
-    _rival("clarabel", "Clarabel", "clarabel", f"{_QUADRATIC}:clarabel"),
-    _rival("piqp", "PIQP", "piqp", f"{_QUADRATIC}:piqp"),
-    _rival("proxqp", "ProxQP", "proxsuite", f"{_QUADRATIC}:proxqp"),
-    _rival("highs", "HiGHS", "highspy", f"{_QUADRATIC}:highs"),
-    _rival("lbfgsb", "SciPy L-BFGS-B", "scipy", f"{_BOUNDED}:lbfgsb"),
-    _rival("bvls", "SciPy BVLS, condensed", "scipy", f"{_BOUNDED}:bvls"),
-    _rival(
-        "petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", f"{_BOUNDED}:petsc_vi", "petsc petsc4py"
-    ),
-    _rival("petsc-tao", "PETSc TAO bnls", "petsc4py", f"{_BOUNDED}:petsc_tao", "petsc petsc4py"),
+    ("spsolve", "active set, SciPy spsolve", "scipy", _ACTIVE_SET, "spsolve"),
+    ("superlu", "active set, SuperLU symmetric", "scipy", _ACTIVE_SET, "superlu"),
+    ("pyamg", "active set, CG with PyAMG", "pyamg", _ACTIVE_SET, "pyamg"),
+    ("ngsolve", "active set, NGSolve Cholesky", "ngsolve", _ACTIVE_SET, "ngsolve"),
+    ("osqp", "OSQP", "osqp", _QUADRATIC, "osqp"),
+    ("clarabel", "Clarabel", "clarabel", _QUADRATIC, "clarabel"),
+    ("piqp", "PIQP", "piqp", _QUADRATIC, "piqp"),
+    ("proxqp", "ProxQP", "proxsuite", _QUADRATIC, "proxqp"),
+    ("highs", "HiGHS", "highspy", _QUADRATIC, "highs"),
+    ("lbfgsb", "SciPy L-BFGS-B", "scipy", _BOUNDED, "lbfgsb"),
+    ("bvls", "SciPy BVLS, condensed", "scipy", _BOUNDED, "bvls"),
+    ("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", _BOUNDED, "petsc_vi"),
+    ("petsc-tao", "PETSc TAO bnls", "petsc4py", _BOUNDED, "petsc_tao"),
 )
+_INSTALL = {"petsc4py": "pip install petsc petsc4py"}
 
-RIVALS = {rival.name: rival for rival in _ALL}
+RIVALS = {
+    name: Rival(
+        name,
+        title,
+        package,
+        _INSTALL.get(package, f"pip install {package}"),
+        f"{module}:{function}",
+    )
+    for name, title, package, module, function in _ALL
+}

@@ -5,57 +5,63 @@ method, SIAM J. Optim. 13 (2002). It starts with no contact unknown held, or all
 holds the body, and ends when the contact set repeats itself from one step to the next.
 """
 
-import time
-
 import numpy as np
 
 _MAX_STEPS = 100
 
 
-def active_set(qp, deadline, solve_free):
-    """Solve K x = rhs on the unknowns that are not held, by ``solve_free(mask, rhs)``, until the
-    held ones stay.
+def active_set(qp, solve_free):
+    """Solve K x = f on the unknowns that are not held, until the held ones stay.
+
+    Parameters
+    ----------
+    qp : BoundProblem
+    solve_free : callable
+        ``solve_free(free, rhs)``: the free unknowns, ``free`` a mask of them.
+
+    Returns
+    -------
+    x : ndarray, shape (n,)
+    claimed : bool
+    steps : int
     """
     active = np.full(qp.contact.size, qp.floating)
     for step in range(1, _MAX_STEPS + 1):
+        held = qp.contact[active]
         x, free = np.zeros_like(qp.f), np.ones(qp.f.size, dtype=bool)
-        x[qp.contact[active]] = qp.lower[active]
-        free[qp.contact[active]] = False
+        x[held] = qp.lower[active]
+        free[held] = False
         x[free] = solve_free(free, (qp.f - qp.K @ x)[free])
         force = (qp.K @ x - qp.f)[qp.contact]
         before, active = active, np.where(active, force > 0.0, x[qp.contact] < qp.lower)
         if np.array_equal(active, before):
             return x, True, step
-        if time.perf_counter() > deadline:
+        if qp.seconds_left < 0.0:
             break
     return x, False, step
 
 
-def spsolve(qp, tolerance, deadline):
+def spsolve(qp):
     """SciPy's spsolve in every step: the baseline."""
     from scipy.sparse.linalg import spsolve
 
-    return active_set(qp, deadline, lambda free, rhs: spsolve(qp.K[free][:, free], rhs))
+    return active_set(qp, lambda free, rhs: spsolve(qp.K[free][:, free], rhs))
 
 
-def superlu(qp, tolerance, deadline):
+def superlu(qp):
     """SuperLU told that the matrix is symmetric and positive definite, in every step."""
     from scipy.sparse.linalg import splu
 
-    settings = {
-        "permc_spec": "MMD_AT_PLUS_A",
-        "diag_pivot_thresh": 0.0,
-        "options": {"SymmetricMode": True},
-    }
-    return active_set(
-        qp, deadline, lambda free, rhs: splu(qp.K[free][:, free], **settings).solve(rhs)
-    )
+    mode = {"options": {"SymmetricMode": True}, "diag_pivot_thresh": 0.0}
+
+    def solve_free(free, rhs):
+        return splu(qp.K[free][:, free], permc_spec="MMD_AT_PLUS_A", **mode).solve(rhs)
+
+    return active_set(qp, solve_free)
 
 
-def pyamg(qp, tolerance, deadline):
-    """Conjugate gradients preconditioned by PyAMG's smoothed aggregation, a new hierarchy in every
-    step.
-    """
+def pyamg(qp):
+    """Conjugate gradients with PyAMG's smoothed aggregation, a new hierarchy in every step."""
     from pyamg import smoothed_aggregation_solver
     from scipy.sparse import csr_matrix
 
@@ -63,18 +69,17 @@ def pyamg(qp, tolerance, deadline):
 
     def solve_free(free, rhs):
         levels = smoothed_aggregation_solver(csr_matrix(qp.K[free][:, free]), symmetry="symmetric")
-        x, info = levels.solve(rhs, tol=1e-3 * tolerance, maxiter=500, accel="cg", return_info=True)
+        stop = {"tol": 1e-3 * qp.tolerance, "maxiter": 500}
+        x, info = levels.solve(rhs, accel="cg", return_info=True, **stop)
         failures.append(info != 0)
         return x
 
-    x, claimed, steps = active_set(qp, deadline, solve_free)
+    x, claimed, steps = active_set(qp, solve_free)
     return x, claimed and not failures[-1], steps
 
 
-def ngsolve(qp, tolerance, deadline):
-    """NGSolve's sparse Cholesky on the unknowns that are not held, in every step; one thread, more
-    are slower.
-    """
+def ngsolve(qp):
+    """NGSolve's sparse Cholesky in every step, on one thread: more are slower."""
     from ngsolve import BaseVector, BitArray, SetNumThreads
     from ngsolve.la import SparseMatrixd
 
@@ -86,9 +91,8 @@ def ngsolve(qp, tolerance, deadline):
         full = np.zeros(free.size)
         full[free] = rhs
         solution = matrix.CreateColVector()
-        solution.data = matrix.Inverse(
-            BitArray(free.tolist()), inverse="sparsecholesky"
-        ) * BaseVector(full)
+        inverse = matrix.Inverse(BitArray(free.tolist()), inverse="sparsecholesky")
+        solution.data = inverse * BaseVector(full)
         return solution.FV().NumPy()[free]
 
-    return active_set(qp, deadline, solve_free)
+    return active_set(qp, solve_free)

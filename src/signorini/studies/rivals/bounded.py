@@ -1,18 +1,16 @@
 """Solvers of bound-constrained problems: SciPy's, and PETSc's for variational inequalities."""
 
-import time
-
 import numpy as np
 
 _MAX_STEPS = 100_000
 
 
-def lbfgsb(qp, tolerance, deadline):
+def lbfgsb(qp):
     """SciPy's L-BFGS-B, stopped by the projected gradient alone."""
     from scipy.optimize import minimize
 
     def stop_when_late(x):
-        if time.perf_counter() > deadline:
+        if qp.seconds_left < 0.0:
             raise StopIteration
 
     bounds = qp.bounds
@@ -25,7 +23,7 @@ def lbfgsb(qp, tolerance, deadline):
         bounds=list(zip(bounds, np.full(bounds.size, np.inf), strict=True)),
         callback=stop_when_late,
         options={
-            "gtol": tolerance * size,
+            "gtol": qp.tolerance * size,
             "ftol": 0.0,
             "maxiter": _MAX_STEPS,
             "maxfun": 2 * _MAX_STEPS,
@@ -35,10 +33,8 @@ def lbfgsb(qp, tolerance, deadline):
     return result.x, result.success, result.nit
 
 
-def bvls(qp, tolerance, deadline):
-    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the matrix condensed to the contact
-    unknowns.
-    """
+def bvls(qp):
+    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the condensed matrix."""
     from scipy.linalg import cholesky, solve_triangular
     from scipy.optimize import lsq_linear
     from scipy.sparse.linalg import splu
@@ -51,7 +47,7 @@ def bvls(qp, tolerance, deadline):
     L = cholesky(qp.K[c][:, c].toarray() - coupling.T @ inner, lower=True)
     target = solve_triangular(L, qp.f[c] - inner.T @ qp.f[i], lower=True)
     result = lsq_linear(
-        L.T, target, (qp.lower, np.inf), method="bvls", tol=tolerance**2, max_iter=10 * c.size
+        L.T, target, (qp.lower, np.inf), method="bvls", tol=qp.tolerance**2, max_iter=10 * c.size
     )
     x = np.empty_like(qp.f)
     x[c] = result.x
@@ -59,10 +55,8 @@ def bvls(qp, tolerance, deadline):
     return x, result.success, result.nit
 
 
-def petsc_vi(qp, tolerance, deadline):
-    """PETSc's semismooth Newton method on a reduced space (SNES vinewtonrsls), each step by
-    Cholesky's method.
-    """
+def petsc_vi(qp):
+    """PETSc's semismooth Newton method on a reduced space, each step by Cholesky's method."""
     from petsc4py import PETSc
 
     K, x, load, low, high = _petsc(PETSc, qp)
@@ -71,14 +65,14 @@ def petsc_vi(qp, tolerance, deadline):
     snes.setFunction(lambda snes, x, r: (K.mult(x, r), r.axpy(-1.0, load)), load.duplicate())
     snes.setJacobian(lambda snes, x, J, P: None, K)
     snes.setVariableBounds(low, high)
-    snes.setTolerances(atol=tolerance * max(load.norm(), 1e-300), rtol=tolerance, max_it=100)
+    snes.setTolerances(atol=qp.tolerance * max(load.norm(), 1e-300), rtol=qp.tolerance, max_it=100)
     snes.getKSP().setType("preonly")
     snes.getKSP().getPC().setType("cholesky")
     snes.solve(None, x)
     return x.getArray().copy(), snes.getConvergedReason() > 0, snes.getIterationNumber()
 
 
-def petsc_tao(qp, tolerance, deadline):
+def petsc_tao(qp):
     """PETSc's bounded Newton method with a line search (TAO bnls)."""
     from petsc4py import PETSc
 
@@ -95,7 +89,7 @@ def petsc_tao(qp, tolerance, deadline):
     tao.setObjectiveGradient(objective_gradient, load.duplicate())
     tao.setHessian(lambda tao, x, H, P: None, K)
     tao.setVariableBounds((low, high))
-    tao.setTolerances(gatol=tolerance * load.norm(), grtol=0.0)
+    tao.setTolerances(gatol=qp.tolerance * load.norm(), grtol=0.0)
     tao.setMaximumIterations(1000)
     tao.solve(x)
     return x.getArray().copy(), tao.getConvergedReason() > 0, tao.getIterationNumber()
@@ -106,12 +100,10 @@ def _petsc(PETSc, qp):
     matrix = PETSc.Mat().createAIJ(K.shape, csr=(K.indptr, K.indices, K.data), comm=PETSc.COMM_SELF)
     bounds = qp.bounds
     start = np.where(np.isfinite(bounds), bounds, 0.0)
-    low, high = (
-        np.where(np.isfinite(bounds), bounds, PETSc.NINFINITY),
-        np.full(bounds.size, PETSc.INFINITY),
-    )
-    vectors = [
-        PETSc.Vec().createWithArray(v.copy(), comm=PETSc.COMM_SELF)
-        for v in (start, qp.f, low, high)
-    ]
-    return matrix, *vectors
+    low = np.where(np.isfinite(bounds), bounds, PETSc.NINFINITY)
+    high = np.full(bounds.size, PETSc.INFINITY)
+
+    def vector(values):
+        return PETSc.Vec().createWithArray(values.copy(), comm=PETSc.COMM_SELF)
+
+    return matrix, vector(start), vector(qp.f), vector(low), vector(high)

@@ -1,12 +1,9 @@
-"""General solvers of quadratic programs; the contact unknowns are bounded from below, all others
-are free.
+"""General solvers of quadratic programs.
 
 Interior point methods also stop on the duality gap, a sum of products gap times force. It is asked
 for a thousandth of the tolerance: at the tolerance itself the smaller factor of a product stays far
 above it.
 """
-
-import time
 
 import numpy as np
 
@@ -28,7 +25,7 @@ def _selection(qp):
     return csc_matrix((np.ones(rows.size), (rows, qp.contact)), shape=(rows.size, qp.f.size))
 
 
-def osqp(qp, tolerance, deadline):
+def osqp(qp):
     """OSQP: alternating directions, then a polishing step."""
     import osqp
 
@@ -39,27 +36,27 @@ def osqp(qp, tolerance, deadline):
         _selection(qp),
         qp.lower,
         np.full(qp.lower.size, np.inf),
-        eps_abs=tolerance,
-        eps_rel=tolerance,
+        eps_abs=qp.tolerance,
+        eps_rel=qp.tolerance,
         max_iter=_MAX_STEPS,
         polishing=True,
-        time_limit=deadline - time.perf_counter(),
+        time_limit=qp.seconds_left,
         verbose=False,
     )
     result = solver.solve(raise_error=False)
     return result.x, result.info.status == "solved", result.info.iter
 
 
-def clarabel(qp, tolerance, deadline):
+def clarabel(qp):
     """Clarabel: an interior point method."""
     import clarabel
 
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.time_limit = deadline - time.perf_counter()
+    settings.time_limit = qp.seconds_left
     settings.max_threads = 1
-    settings.tol_feas = tolerance
-    settings.tol_gap_abs = settings.tol_gap_rel = _GAP * tolerance
+    settings.tol_feas = qp.tolerance
+    settings.tol_gap_abs = settings.tol_gap_rel = _GAP * qp.tolerance
     cones = [clarabel.NonnegativeConeT(qp.lower.size)]
     solver = clarabel.DefaultSolver(
         _upper(qp.K), -qp.f, -_selection(qp), -qp.lower, cones, settings
@@ -68,26 +65,26 @@ def clarabel(qp, tolerance, deadline):
     return np.array(result.x), result.status == clarabel.SolverStatus.Solved, result.iterations
 
 
-def piqp(qp, tolerance, deadline):
+def piqp(qp):
     """PIQP: a proximal interior point method with bounds of its own."""
     import piqp
     from scipy.sparse import csc_matrix
 
     solver = piqp.SparseSolver()
-    solver.settings.eps_abs = solver.settings.eps_rel = tolerance
-    solver.settings.eps_duality_gap_abs = solver.settings.eps_duality_gap_rel = _GAP * tolerance
+    solver.settings.eps_abs = solver.settings.eps_rel = qp.tolerance
+    solver.settings.eps_duality_gap_abs = solver.settings.eps_duality_gap_rel = _GAP * qp.tolerance
     solver.setup(csc_matrix(qp.K), -qp.f, x_l=qp.bounds, x_u=np.full(qp.f.size, np.inf))
     status = solver.solve()
     return solver.result.x, status == piqp.PIQP_SOLVED, solver.result.info.iter
 
 
-def proxqp(qp, tolerance, deadline):
+def proxqp(qp):
     """ProxQP: a proximal augmented Lagrangian method."""
     from proxsuite import proxqp
     from scipy.sparse import csc_matrix
 
     solver = proxqp.sparse.QP(qp.f.size, 0, qp.lower.size)
-    solver.settings.eps_abs = solver.settings.eps_rel = tolerance
+    solver.settings.eps_abs = solver.settings.eps_rel = qp.tolerance
     solver.init(
         csc_matrix(qp.K),
         -qp.f,
@@ -102,7 +99,7 @@ def proxqp(qp, tolerance, deadline):
     return solver.results.x, info.status == proxqp.QPSolverOutput.PROXQP_SOLVED, info.iter
 
 
-def highs(qp, tolerance, deadline):
+def highs(qp):
     """HiGHS: an active set method for quadratic programs, its regularisation switched off."""
     import highspy
     from scipy.sparse import csc_matrix, tril
@@ -114,19 +111,16 @@ def highs(qp, tolerance, deadline):
     model.lp_.col_upper_ = np.full(size, highspy.kHighsInf)
     model.lp_.a_matrix_.start_ = np.zeros(size + 1, dtype=np.int32)
     model.hessian_.dim_, model.hessian_.format_ = size, highspy.HessianFormat.kTriangular
-    model.hessian_.start_, model.hessian_.index_, model.hessian_.value_ = (
-        below.indptr,
-        below.indices,
-        below.data,
-    )
+    model.hessian_.start_, model.hessian_.index_ = below.indptr, below.indices
+    model.hessian_.value_ = below.data
     solver = highspy.Highs()
     options = {
         "output_flag": False,
         "threads": 1,
-        "time_limit": deadline - time.perf_counter(),
+        "time_limit": qp.seconds_left,
         "qp_regularization_value": 0.0,
-        "primal_feasibility_tolerance": max(tolerance, 1e-10),
-        "dual_feasibility_tolerance": max(tolerance, 1e-10),
+        "primal_feasibility_tolerance": max(qp.tolerance, 1e-10),
+        "dual_feasibility_tolerance": max(qp.tolerance, 1e-10),
     }
     for name, value in options.items():
         solver.setOptionValue(name, value)

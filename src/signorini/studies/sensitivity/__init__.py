@@ -1,1 +1,1 @@
-"""The choices that the paper leaves unsaid, made otherwise: how far its numbers move."""
+"""The options that the paper leaves open, chosen otherwise: how far its numbers move."""

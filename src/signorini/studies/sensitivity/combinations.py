@@ -1,153 +1,160 @@
-"""Combinations of the paper's unsaid choices: which meet its numbers, and what each would have
-concluded.
-"""
+"""Combinations of options: which meet the paper's numbers, and what each would have concluded."""
 
 import math
+
+import pandas as pd
 
 from signorini.errors.rates import slopes
 from signorini.report.compare import compare
 from signorini.storage import read_csv
-from signorini.studies.sensitivity.unsaid import CHOICES, ELEMENTS, H1, LOADS, PAPER, RULES, SLOPES
+from signorini.studies.sensitivity.options import (
+    ELEMENTS,
+    H1,
+    LOADS,
+    OPTIONS,
+    PAPER,
+    RULES,
+    SLOPES,
+)
 
 NORMS = ("l2", "h1")
 TIE = "tie"
-_ROUNDING = 1e-9
+_ROUND_OFF = 1e-9
+_SHARED = ["diagonal", "load", "rule"]  # of a set of errors
 SERIES = [(norm, element) for norm in NORMS for element in ELEMENTS]
 
 
 def read_errors(paths, levels):
-    """Read the rows of `sensitivity.errors_of_diagonal`, of all levels, from a file per diagonal;
-    norms as numbers.
+    """Read the rows of `errors_of_diagonal`, of all levels.
+
+    Parameters
+    ----------
+    paths : sequence of str
+        A file per diagonal.
+    levels : sequence of int
+
+    Returns
+    -------
+    list of dict
+        Norms as numbers.
     """
     every = {"load": LOADS, "rule": RULES, "element": ELEMENTS, "n": levels}
     return [row for path in paths for row in read_csv(path, ("l2", "h1_semi", "h1"), every)]
 
 
 def combinations(errors, published):
-    """Hold every combination against the published numbers.
+    """Compare every combination with the published numbers.
 
     Parameters
     ----------
     errors : sequence of mapping
-        Rows of `sensitivity.errors_of_diagonal`, their norms as numbers, for both elements.
+        Rows of `errors_of_diagonal`, their norms as numbers, for both elements.
     published : sequence of mapping
-        As for `check.compare`; of the errors those of the levels in `errors` are compared, and the
-        slopes where these are all the levels of the table.
+        As for `compare.compare`; of the errors those of the levels in `errors` are compared, and
+        the slopes where these are all the levels of the table.
 
     Returns
     -------
     list of dict
-        A row per combination: its choices; ``errors`` published and how many are ``matched`` within
+        A row per combination: its options; ``errors`` published and how many are ``matched`` within
         the tolerance; ``largest_miss``, relative, and its ``cell``; ``slopes`` and
         ``slopes_matched``; for each norm and element the ``slope_...``; per norm who has the
         ``smaller`` error on each level, a word each, and the ``ratio``: the error of CR relative to
         that of P1, geometric mean over the levels.
     """
     levels = sorted({int(row["n"]) for row in errors})
-    printed = comparable(published, levels)
+    printed = _comparable(published, levels)
     rows = []
-    for (diagonal, load, rule), table in _tables(errors).items():
-        for h1, norm in H1.items():
-            series = {
-                (n, e): [table[e, k][norm if n == "h1" else n] for k in levels] for n, e in SERIES
-            }
-            for slope in SLOPES:
-                key = {"diagonal": diagonal, "load": load, "rule": rule, "h1": h1, "slope": slope}
-                found = {
-                    pair: slopes([1.0 / n for n in levels], values)[slope]
-                    for pair, values in series.items()
-                }
-                rows.append(
-                    key | _agreement(printed, levels, series, found) | _conclusion(series, found)
-                )
+    for shared, table in _wide(errors).groupby(_SHARED, sort=False):
+        for h1, column in H1.items():
+            columns = {"l2": "l2", "h1": column}
+            series = {(norm, e): table[columns[norm], e].tolist() for norm, e in SERIES}
+            fitted = {pair: slopes([1.0 / n for n in levels], series[pair]) for pair in SERIES}
+            for kind in SLOPES:
+                row = dict(zip(_SHARED, shared, strict=True)) | {"h1": h1, "slope": kind}
+                rates = {pair: found[kind] for pair, found in fitted.items()}
+                row |= _agreement(printed, levels, series, rates)
+                rows.append(row | _conclusion(series, rates))
     return rows
 
 
-def comparable(published, levels):
-    """Those of the published numbers that these levels compute."""
+def _comparable(published, levels):
+    """The published errors of these levels, and the slopes where these are all the levels."""
     errors = [row for row in published if row["quantity"] == "error"]
+    others = [row for row in published if row["quantity"] != "error"]
     whole = {int(row["n"]) for row in errors} == set(levels)
-    return [row for row in errors if int(row["n"]) in levels] + [
-        row for row in published if row not in errors
-    ] * whole
+    return [row for row in errors if int(row["n"]) in levels] + others * whole
 
 
-def _tables(errors):
-    tables = {}
-    for row in errors:
-        tables.setdefault((row["diagonal"], row["load"], row["rule"]), {})[
-            row["element"], int(row["n"])
-        ] = row
-    return tables
+def _wide(errors):
+    """A row per diagonal, load, rule and level, in their order, a column per norm and element."""
+    frame = pd.DataFrame(errors).astype({"n": int}).set_index([*_SHARED, "n", "element"])
+    frame = frame[["l2", "h1", "h1_semi"]].unstack(sort=False)
+    order = frame.groupby(_SHARED, sort=False).ngroup().rename("order")
+    frame = frame.set_index(order, append=True).sort_index(level=["order", "n"])
+    return frame.droplevel("order")
 
 
-def _agreement(printed, levels, series, found):
-    rows = [
+def _agreement(printed, levels, series, rates):
+    """How well the published numbers are met; `rates` are slopes by norm and element."""
+    error_rows = [
         {"element": e, "n": str(n), "l2": repr(series["l2", e][k]), "h1": repr(series["h1", e][k])}
         for e in ELEMENTS
         for k, n in enumerate(levels)
     ]
-    rates = [
-        {"element": e, "norm": n, "kind": "mean", "slope": repr(value)}
-        for (n, e), value in found.items()
+    rate_rows = [
+        {"element": e, "norm": norm, "kind": "mean", "slope": repr(slope)}
+        for (norm, e), slope in rates.items()
     ]
-    checked = list(zip(printed, compare(printed, rows, rates), strict=True))
-    of_errors = [row for number, row in checked if number["quantity"] == "error"]
-    of_slopes = [row for number, row in checked if number["quantity"] == "slope"]
-    miss = {
-        row["cell"]: abs(float(row["computed"]) / float(row["published"]) - 1.0)
-        for row in of_errors
-    }
-    worst = max(miss, key=miss.get)
+    compared = compare(printed, error_rows, rate_rows)
+    count = sum(number["quantity"] == "error" for number in printed)  # which come first
+    errors, others = compared[:count], compared[count:]
+    misses = [abs(float(row["computed"]) / float(row["published"]) - 1.0) for row in errors]
+    worst = misses.index(max(misses))
     return {
-        "errors": len(of_errors),
-        "matched": sum(row["ok"] for row in of_errors),
-        "largest_miss": miss[worst],
-        "cell": worst,
-        "slopes": len(of_slopes),
-        "slopes_matched": sum(row["ok"] for row in of_slopes),
+        "errors": len(errors),
+        "matched": sum(row["ok"] for row in errors),
+        "largest_miss": misses[worst],
+        "cell": errors[worst]["cell"],
+        "slopes": len(others),
+        "slopes_matched": sum(row["ok"] for row in others),
     }
 
 
-def _conclusion(series, found):
-    columns = {f"slope_{norm}_{element}": found[norm, element] for norm, element in SERIES}
+def _conclusion(series, rates):
+    """The slopes, and which element has the smaller error."""
+    columns = {f"slope_{norm}_{element}": rates[norm, element] for norm, element in SERIES}
     for norm in NORMS:
-        quotients = [b / a for a, b in zip(series[norm, "P1"], series[norm, "CR"], strict=True)]
+        pairs = zip(series[norm, "P1"], series[norm, "CR"], strict=True)
+        quotients = [cr / p1 for p1, cr in pairs]
+        mean = math.fsum(map(math.log, quotients)) / len(quotients)
         columns[f"{norm}_smaller"] = " ".join(map(smaller, quotients))
-        columns[f"{norm}_ratio"] = math.exp(math.fsum(map(math.log, quotients)) / len(quotients))
+        columns[f"{norm}_ratio"] = math.exp(mean)
     return columns
 
 
 def smaller(ratio):
-    """Which element has the smaller error when CR's is `ratio` times that of P1: P1, CR, or a tie
-    to round-off.
-    """
-    return TIE if abs(ratio - 1.0) < _ROUNDING else "CR" if ratio < 1.0 else "P1"
+    """Which element has the smaller error when CR's is `ratio` times that of P1, or a tie."""
+    if abs(ratio - 1.0) < _ROUND_OFF:
+        return TIE
+    return "CR" if ratio < 1.0 else "P1"
 
 
 def ratios(errors):
-    """The error of CR relative to that of P1: a row per diagonal, load, rule and level, a column
-    per norm.
-    """
-    return [
-        {"diagonal": diagonal, "load": load, "rule": rule, "n": n}
-        | {norm: table["CR", n][norm] / table["P1", n][norm] for norm in ("l2", "h1", "h1_semi")}
-        for (diagonal, load, rule), table in _tables(errors).items()
-        for n in sorted({n for _, n in table})
-    ]
+    """The error of CR relative to that of P1: a row per diagonal, load, rule and level."""
+    frame = _wide(errors).swaplevel(axis=1)
+    return (frame["CR"] / frame["P1"]).reset_index().to_dict("records")
 
 
-def where(rows, **choices):
-    """The rows with these choices."""
-    return [row for row in rows if all(row[choice] == option for choice, option in choices.items())]
+def where(rows, **options):
+    """The rows with these options."""
+    return [row for row in rows if all(row[name] == value for name, value in options.items())]
 
 
 def one_at_a_time(rows):
-    """The paper's combination, and those that differ from it in one choice, in the order of
-    `CHOICES`.
-    """
-    base, found = where(rows, **PAPER), []
-    for choice, options in CHOICES.items():
-        for option in options[1:]:
-            found += where(rows, **PAPER | {choice: option})
-    return base + found
+    """The paper's combination, and those that differ from it in one option, in their order."""
+    found = where(rows, **PAPER)
+    for name, values in OPTIONS.items():
+        for value in values[1:]:
+            found += where(rows, **PAPER | {name: value})
+    return found

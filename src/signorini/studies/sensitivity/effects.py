@@ -1,13 +1,11 @@
-"""What each choice that the paper leaves unsaid does to its table: the largest relative change of
-an entry.
-"""
+"""What each option that the paper leaves open does to its table."""
 
 from signorini.errors.reference import ReferenceErrors
-from signorini.studies.sensitivity.options import largest_change, solutions, with_choices
+from signorini.studies.sensitivity.solves import solutions, with_options
 
 
-def effects_of_choices(statement, errors, elements, levels, reference, norms):
-    """Change one choice at a time and compare with the errors of the scene.
+def effects_of_options(statement, errors, elements, levels, reference, norms):
+    """Change one option at a time and compare with the errors of the scene.
 
     Parameters
     ----------
@@ -32,16 +30,15 @@ def effects_of_choices(statement, errors, elements, levels, reference, norms):
     diagonal, load = statement.domain["diagonal"], statement.load_quadrature
     other = {"falling": "rising", "rising": "falling"}[diagonal]
     asked = (elements, levels, reference, norms)
+    seminorm = {"h1": "h1_semi"}
     changed = {
-        "diagonal": _table(with_choices(statement, other, load), *asked),
-        "load": _table(with_choices(statement, diagonal, "exact"), *asked),
-        "norm": {
-            key: errors[(*key[:2], "h1_semi" if key[2] == "h1" else key[2])] for key in errors
-        },
+        "diagonal": _table(with_options(statement, other, load), *asked),
+        "load": _table(with_options(statement, diagonal, "exact"), *asked),
+        "norm": {(e, n, norm): errors[e, n, seminorm.get(norm, norm)] for e, n, norm in errors},
         "quadrature": _table(statement, *asked, quadrature="centroid"),
     }
     entries = {(e, n, norm): errors[e, n, norm] for e in elements for n in levels for norm in norms}
-    return {choice: largest_change(entries, table) for choice, table in changed.items()}
+    return {option: _largest_change(entries, table) for option, table in changed.items()}
 
 
 def _table(statement, elements, levels, reference, norms, quadrature="exact"):
@@ -55,3 +52,7 @@ def _table(statement, elements, levels, reference, norms, quadrature="exact"):
         found = truth.of(mesh, element, u)
         table |= {(element, n, norm): found[norm] for norm in norms}
     return table
+
+
+def _largest_change(table, other):
+    return max(abs(other[key] / table[key] - 1.0) for key in table)

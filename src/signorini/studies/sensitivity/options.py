@@ -1,44 +1,21 @@
-"""The choices that the paper leaves unsaid, made otherwise: the statement, its solutions, and how
-far a table moves.
+"""The options that the paper leaves open.
+
+`OPTIONS` maps the name of each option to its values, the paper's first.
 """
 
-from dataclasses import replace
+DIAGONALS = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
+LOADS = ("centroid", "midpoints", "vertices", "exact", "nodal")
+RULES = ("exact", "midpoints", "centroid", "vertices")
+H1 = {"full": "h1", "semi": "h1_semi"}
+SLOPES = ("mean", "fit")
+OPTIONS = {"diagonal": DIAGONALS, "load": LOADS, "rule": RULES, "h1": tuple(H1), "slope": SLOPES}
+PAPER = {name: values[0] for name, values in OPTIONS.items()}
 
-from signorini.fem.problem import discretize_on
-from signorini.solvers import solve
-
-
-def with_choices(statement, diagonal, load):
-    """A statement on a rectangle with another diagonal and another load quadrature."""
-    return replace(
-        statement, domain=statement.domain | {"diagonal": diagonal}, load_quadrature=load
-    )
+ELEMENTS = ("P1", "CR")
 
 
-def solutions(statement, asked, level=None):
-    """Solve a statement.
-
-    Parameters
-    ----------
-    statement : ProblemStatement
-    asked : iterable of tuple
-        Element and level n of each solution.
-    level : callable, optional
-        From n to its triangulation, where it has been made already.
-
-    Returns
-    -------
-    dict
-        (element, n) -> (mesh, u).
-    """
-    level = level or statement.triangulations.level
-    found = {}
-    for element, n in asked:
-        mesh = level(n)
-        found[element, n] = mesh, solve(discretize_on(mesh, element, statement)).u
-    return found
-
-
-def largest_change(table, other):
-    """The largest ``|other[key] / table[key] - 1|`` over the keys of `table`, dimensionless."""
-    return max(abs(other[key] / table[key] - 1.0) for key in table)
+def count_solves(errors):
+    """Solves that the rows took, with one of a reference per diagonal and load."""
+    references = {(row["diagonal"], row["load"]) for row in errors}
+    solved = {(row["diagonal"], row["load"], row["element"], row["n"]) for row in errors}
+    return len(solved) + len(references)

@@ -1,51 +1,50 @@
-"""The paper's errors under all choices that it leaves unsaid: the solves and the norms.
+"""The statement under other options, and its solutions."""
 
-A combination is a diagonal, a load rule, a norm rule, a meaning of "H1 error" and one of "average
-slope". Only the first two change a discrete problem, so that one set of solutions serves all
-combinations that share them.
-"""
+from dataclasses import replace
 
-from functools import cache
-
-from signorini.errors.overlay import Overlay
-from signorini.studies.sensitivity.options import solutions, with_choices
-from signorini.studies.sensitivity.unsaid import ELEMENTS, LOADS, RULES
+from signorini.fem.problem import discretize_on
+from signorini.solvers import solve
 
 
-def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, rules=RULES):
-    """Errors on the meshes of one diagonal, for every load rule and norm rule.
+def with_options(statement, diagonal, load):
+    """Change two options of a statement.
 
     Parameters
     ----------
     statement : ProblemStatement
         On a rectangle.
     diagonal : str
-        As in `mesh.Rectangle`; of all meshes, that of the reference too.
-    levels : sequence of int
-    reference_n : int
-        Level of the P1 reference, a multiple of all others. It has the load rule of the solutions
-        held against it.
-    loads, rules : sequence of str, optional
-        Rules for the load, and for the L2 norm on each triangle of the common refinement of a mesh
-        and the reference's.
+        As in `mesh.Rectangle`.
+    load : str
+        Rule for the load.
 
     Returns
     -------
-    list of dict
-        A row per load, rule, level and element: these, ``diagonal``, and the norms ``l2``,
-        ``h1_semi`` and ``h1``.
+    ProblemStatement
     """
-    level = cache(with_choices(statement, diagonal, statement.load_quadrature).triangulations.level)
-    overlay = cache(lambda n: Overlay(level(reference_n), level(n)))
-    pairs = [(element, n) for n in levels for element in ELEMENTS]
-    rows = []
-    for load in loads:
-        solved = solutions(
-            with_choices(statement, diagonal, load), [("P1", reference_n), *pairs], level
-        )
-        truth = "P1", solved["P1", reference_n][1]
-        for element, n in pairs:
-            found = overlay(n).errors(truth, (element, solved[element, n][1]), rules)
-            key = {"diagonal": diagonal, "load": load, "element": element, "n": n}
-            rows += [key | {"rule": rule} | norms for rule, norms in found.items()]
-    return rows
+    domain = statement.domain | {"diagonal": diagonal}
+    return replace(statement, domain=domain, load_quadrature=load)
+
+
+def solutions(statement, asked, level=None):
+    """Solve a statement.
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    asked : iterable of tuple
+        Element and level n of each solution.
+    level : callable, optional
+        From n to its triangulation, where it has been made already.
+
+    Returns
+    -------
+    dict
+        (element, n) -> (mesh, u).
+    """
+    level = level or statement.triangulations.level
+    found = {}
+    for element, n in asked:
+        mesh = level(n)
+        found[element, n] = mesh, solve(discretize_on(mesh, element, statement)).u
+    return found

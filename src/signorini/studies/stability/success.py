@@ -10,7 +10,7 @@ import numpy as np
 from signorini.fem.elements import ELEMENTS
 from signorini.solvers import kkt_residual
 from signorini.studies.rivals import RIVALS
-from signorini.studies.rivals.timed import Arena
+from signorini.studies.rivals.worker import Worker
 from signorini.studies.stability.problems import LOADS, instance
 from signorini.studies.stability.proof import PROOF, proofs
 
@@ -59,7 +59,7 @@ def measure(family, seeds, few, time_limit):
         ``busy``: the machine's load average. Ours alone have what `stability_proof.proofs` tells.
     """
     chosen = _prepared()
-    arena, rows = Arena(_theirs, _PATIENCE * time_limit), []
+    worker, rows = Worker(_theirs, _PATIENCE * time_limit, quiet=True), []
     for load in LOADS:
         for element in ELEMENTS:
             for number, seed in enumerate(seeds):
@@ -75,10 +75,10 @@ def measure(family, seeds, few, time_limit):
                 hard = family in HARD or load in HARD
                 asked = [name for name in chosen if number < few or not (hard or name in SLOW)]
                 rows += [
-                    what | (arena.ask(key, name, time_limit) or _late(name, time_limit))
+                    what | (worker.ask(key, name, time_limit) or _late(name, time_limit))
                     for name in asked
                 ]
-    arena.close()
+    worker.close()
     return rows
 
 

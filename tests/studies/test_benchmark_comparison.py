@@ -1,4 +1,4 @@
-"""Duels with rivals: what is measured, when one is stopped, and how wins and losses are counted."""
+"""Rivals: what is measured, when one is stopped, and how wins and losses are counted."""
 
 import math
 import os
@@ -11,19 +11,19 @@ from builders import DATA, delaunay, grid, statement
 from signorini.fem.problem import discretize_on
 from signorini.solvers import METHODS
 from signorini.studies import rivals
-from signorini.studies.benchmark import rivals as benchmark_rivals
+from signorini.studies.benchmark import comparison
 from signorini.studies.benchmark.columns import RIVAL
-from signorini.studies.benchmark.rivals import duel, guarded
-from signorini.studies.benchmark.summary import duels, verdicts
+from signorini.studies.benchmark.comparison import compare, rows_apart
+from signorini.studies.benchmark.summary import comparisons, verdicts
 
 STATEMENT = statement(**DATA)
 
 
 def met(name="superlu", levels=(2, 4), limit=60.0):
-    return list(duel(name, STATEMENT.triangulations, STATEMENT, "CR", levels, limit))
+    return list(compare(name, STATEMENT.triangulations, STATEMENT, "CR", levels, limit))
 
 
-def test_a_duel_has_a_row_per_level_and_route():
+def test_a_comparison_has_a_row_per_level_and_route():
     found = met()
     assert [[(row["n"], row["ours"]) for row in rows] for rows in found] == [
         [(n, m) for m in METHODS] for n in (2, 4)
@@ -38,7 +38,7 @@ def test_a_duel_has_a_row_per_level_and_route():
 
 
 def test_ratios_are_of_pairs():
-    row = benchmark_rivals._against([1.0, 2.0, 6.0], [2.0, 1.0, 2.0], "direct", "fourier")
+    row = comparison._against([1.0, 2.0, 6.0], [2.0, 1.0, 2.0], "direct", "fourier")
     assert (row["ratio_min"], row["ratio"], row["ratio_max"]) == (0.5, 2.0, 3.0)
     assert (row["ours_min"], row["ours_seconds"], row["ours_max"], row["auto"]) == (
         1.0,
@@ -50,9 +50,9 @@ def test_ratios_are_of_pairs():
 
 def test_only_routes_that_apply_are_met():
     problem = discretize_on(delaunay(0), "P1", STATEMENT)
-    assert [
-        row["ours"] for row in benchmark_rivals._level(rivals.RIVALS["superlu"], problem, 60.0)
-    ] == [method for method in METHODS if method != "fourier"]
+    assert [row["ours"] for row in comparison._level(rivals.RIVALS["superlu"], problem, 60.0)] == [
+        method for method in METHODS if method != "fourier"
+    ]
 
 
 def test_finer_levels_are_left_out_when_time_runs_out():
@@ -73,9 +73,7 @@ def test_an_absent_rival_says_how_to_install_it(monkeypatch):
 def test_a_wrong_answer_is_failed_though_claimed(monkeypatch):
     from signorini.studies.rivals import active_set
 
-    monkeypatch.setattr(
-        active_set, "superlu", lambda qp, tolerance, deadline: (np.zeros_like(qp.f), True, 1)
-    )
+    monkeypatch.setattr(active_set, "superlu", lambda qp: (np.zeros_like(qp.f), True, 1))
     row = met()[0][0]
     assert (row["status"], row["claimed"]) == ("failed", 1)
     assert row["difference"] > 0.1
@@ -84,7 +82,7 @@ def test_a_wrong_answer_is_failed_though_claimed(monkeypatch):
 def test_a_rival_without_an_answer_has_no_difference(monkeypatch):
     from signorini.studies.rivals import active_set
 
-    monkeypatch.setattr(active_set, "superlu", lambda qp, tolerance, deadline: 1 / 0)
+    monkeypatch.setattr(active_set, "superlu", lambda qp: 1 / 0)
     row = met()[0][0]
     assert (row["status"], row["claimed"], row["difference"]) == ("failed", 0, None)
 
@@ -93,33 +91,33 @@ def test_a_rival_without_an_answer_has_no_difference(monkeypatch):
 
 
 def counting_to(number):
-    yield from range(number)
+    yield from ([k] for k in range(number))
 
 
 def hanging():
-    yield "first"
+    yield ["first"]
     time.sleep(600)
-    yield "second"
+    yield ["second"]
 
 
 def crashing():
-    yield "first"
+    yield ["first"]
     time.sleep(0.2)
     os._exit(7)
 
 
-def test_what_a_guarded_generator_yields():
-    assert guarded(counting_to, (3,), 60.0) == ([0, 1, 2], None)
+def test_what_a_generator_apart_yields():
+    assert rows_apart(counting_to(3), 60.0) == ([0, 1, 2], None)
 
 
 def test_a_silent_process_is_ended():
     start = time.perf_counter()
-    assert guarded(hanging, (), 5.0) == (["first"], "no answer within 5 s")
+    assert rows_apart(hanging(), 5.0) == (["first"], "no answer within 5 s")
     assert time.perf_counter() - start < 300
 
 
 def test_a_crash_is_told_and_what_came_before_is_kept():
-    assert guarded(crashing, (), 60.0) == (["first"], "the process ended with exit code 7")
+    assert rows_apart(crashing(), 60.0) == (["first"], "the process ended with exit code 7")
 
 
 # Wins and losses
@@ -139,7 +137,7 @@ def fought(ratio, low, high, rival="r", n=8, status="solved", claimed=1):
 
 def test_wins_losses_and_what_is_even():
     rows = [fought(0.5, 0.4, 0.9), fought(4.0, 2.0, 5.0, n=16), fought(0.5, 0.2, 1.5, n=32)]
-    (row,) = duels(
+    (row,) = comparisons(
         [*rows, fought(9.0, 9.0, 9.0, n=64, status="failed"), fought(None, None, None, n=128)]
     )
     assert (row["problems"], row["wins"], row["even"], row["losses"]) == (3, 1, 1, 1)
@@ -170,8 +168,8 @@ def test_a_crash_of_our_own_is_not_hidden(element, monkeypatch):
     def broken(problem, method="auto", guess=None):
         raise ZeroDivisionError
 
-    monkeypatch.setattr(benchmark_rivals, "solve", broken)
+    monkeypatch.setattr(comparison, "solve", broken)
     with pytest.raises(ZeroDivisionError):
-        benchmark_rivals._level(
+        comparison._level(
             rivals.RIVALS["superlu"], discretize_on(grid(4), element, STATEMENT), 60.0
         )

@@ -1,0 +1,27 @@
+"""What the studies alone need: data frames and templates are no part of a solve or of the paper."""
+
+import re
+
+import pytest
+
+from signorini.commands.catalogue import CATALOGUE
+from signorini.commands.sources import sources
+
+STUDIES = ("The benchmark", "The sensitivity study", "The stability suite")
+OTHERS = [name for title, found in CATALOGUE.items() if title not in STUDIES for name in found]
+
+
+@pytest.mark.parametrize("command", OTHERS)
+def test_no_other_command_can_import_pandas_or_jinja2(command):
+    code = [path.read_text(encoding="utf-8") for path in sources(command)]
+    assert [
+        text for text in code if re.search(r"^ *(import|from) (pandas|jinja2)\b", text, re.M)
+    ] == []
+
+
+@pytest.mark.parametrize("study", ["benchmark", "sensitivity"])
+def test_the_templates_of_a_page_are_inputs_of_its_job_alone(study):
+    found = {path.name for path in sources(f"{study} report")}
+    assert {"page.md.j2", "document.md.j2", "document.tex.j2"} <= found
+    measuring = "benchmark point" if study == "benchmark" else "sensitivity errors"
+    assert [path for path in sources(measuring) if path.suffix == ".j2"] == []

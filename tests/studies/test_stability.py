@@ -10,6 +10,7 @@ from builders import DATA, delaunay, statement
 from signorini.errors.reference import ReferenceErrors
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize
+from signorini.judge import judge
 from signorini.solvers import METHODS, solve
 from signorini.studies.rivals.worker import Worker
 from signorini.studies.stability import digits as stability_digits
@@ -18,7 +19,6 @@ from signorini.studies.stability import round_off as stability_floor
 from signorini.studies.stability import success as stability_success
 from signorini.studies.stability.bodies import FAMILIES
 from signorini.studies.stability.claims import claims
-from signorini.studies.stability.extended import judge
 from signorini.studies.stability.parts import digits_by_cell, error_pairs, shares, title, titles
 from signorini.studies.stability.problems import LOADS, instance
 

@@ -5,8 +5,8 @@ import time
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.judge import DOUBLE, judge
 from signorini.solvers import METHODS, kkt_residual, solve
-from signorini.studies.stability.extended import DOUBLE, judge
 
 ERROR = 1e-10  # of u and of the multiplier, up to which a solution may be called solved
 RESIDUAL = 1e-9

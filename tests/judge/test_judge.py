@@ -14,14 +14,14 @@ from builders import DATA, delaunay, grid, statement
 from rational import exact_solution, rounded
 from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
+from signorini.generated.bodies import BOUNDARIES, pressed_flat
+from signorini.generated.problems import instance
 from signorini.judge import EPS, judge, judgement, search
 from signorini.judge.couplings import extended_stiffness
 from signorini.judge.elimination import Elimination
 from signorini.mesh.grid import SIDES
 from signorini.mesh.labels import labelled
 from signorini.solvers import solve
-from signorini.studies.stability.bodies import BOUNDARIES, pressed_flat
-from signorini.studies.stability.problems import instance
 
 extended_only = pytest.mark.skipif(EPS > 1e-18, reason="this machine's long double has 64 bits")
 

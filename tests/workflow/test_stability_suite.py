@@ -9,8 +9,8 @@ from datetime import date
 import pytest
 from project import FILES, LATEX, Project, rooms_of, undeclared
 
+from signorini.generated.bodies import FAMILIES
 from signorini.report.typeset import typeset
-from signorini.studies.stability.bodies import FAMILIES
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 

@@ -8,6 +8,7 @@ elimination keeps couplings too, so that neither stiff parts nor graded cells co
 - `elimination`: elimination of nodes of such a network.
 - `contact_set`: what loads do with a contact set, and the exchange of wrong signs.
 - `search`: the refinement of u, to the last digit.
+- `dense`: small problems in double precision, by other means than the solvers'.
 - `judgement`: what was found, and how solutions compare with it.
 """
 

@@ -169,7 +169,8 @@ def test_case_10_one_thread_or_two():
         "from signorini.solvers import METHODS, solve\n"
         "for element in ('P1', 'CR'):\n"
         "    for method in METHODS:\n"
-        "        print(solve(discretize(statement(**DATA), element, 48), method).u.tobytes().hex())\n"
+        "        problem = discretize(statement(**DATA), element, 48)\n"
+        "        print(solve(problem, method).u.tobytes().hex())\n"
     )
     found = [
         subprocess.run(

@@ -16,7 +16,7 @@ from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.generated.bodies import BOUNDARIES, pressed_flat
 from signorini.generated.problems import instance
-from signorini.judge import EPS, judge, judgement, search
+from signorini.judge import EPS, couplings, elimination, judge, judgement, search
 from signorini.judge.couplings import extended_stiffness
 from signorini.judge.elimination import Elimination
 from signorini.mesh.grid import SIDES
@@ -220,7 +220,7 @@ def test_what_double_precision_cannot_is_told_from_what_it_can():
 
 
 @extended_only
-@pytest.mark.parametrize("module", [judgement, search])
+@pytest.mark.parametrize("module", [couplings, elimination, judgement, search])
 def test_the_examples_run(module, monkeypatch):
     monkeypatch.chdir(Path(__file__).parents[2])
     failed, tried = doctest.testmod(module)

@@ -90,6 +90,16 @@ def extended_stiffness(mesh, element, coefficient=None):
     -------
     scipy.sparse.csr_array of longdouble, shape (ndof, ndof)
         Unit of the coefficient.
+
+    Examples
+    --------
+    The five-point stencil of the vertex in the middle, and of the corner below it on the left:
+
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> extended_stiffness(mesh, "P1").toarray()[[4, 0]].astype(float) + 0.0
+    array([[ 0. , -1. ,  0. , -1. ,  4. , -1. ,  0. , -1. ,  0. ],
+           [ 1. , -0.5,  0. , -0.5,  0. ,  0. ,  0. ,  0. ,  0. ]])
     """
     from scipy.sparse import coo_array
 

@@ -39,6 +39,15 @@ class Elimination:
     ------
     SolverError
         If the matrix is not positive definite.
+
+    Examples
+    --------
+    A chain from the ground over node 0 to node 1, pulled at its end by 1:
+
+    >>> chain = Elimination(np.array([0]), np.array([1]), np.ones(1), np.array([[1.0], [0.0]]))
+    >>> loads, _ = chain.condense(np.array([[0.0], [1.0]]))
+    >>> chain.back_substitute(loads, np.zeros((1, 1)))[:, 0].astype(float)
+    array([1., 2.])
     """
 
     def __init__(self, first, second, weight, border):

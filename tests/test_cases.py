@@ -14,13 +14,16 @@ from hypothesis import given, settings
 from builders import statement
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize
-from signorini.solvers import METHODS, solve
-from signorini.studies.stability import extremes as extremes
-from signorini.studies.stability.bodies import FAMILIES
-from signorini.studies.stability.proof import answered, estimated, statuses
+from signorini.generated.bodies import FAMILIES
+from signorini.generated.scenes import problems
+from signorini.solvers.attempts import solutions
+from signorini.studies.stability import extremes
+from signorini.studies.stability.parts import frame
 from signorini.studies.stability.round_off import stretching
-from signorini.studies.stability.scenes import problems
 from signorini.studies.stability.success import HARD, measure
+from signorini.studies.stability.summaries import statuses
+from signorini.studies.stability.verdicts import answered, estimated
+from signorini.studies.stability.walk import compare
 
 HERE = Path(__file__).parent
 ELSEWHERE = {
@@ -84,12 +87,10 @@ def test_case_2_a_biactive_contact_side(diagonal, element):
     methods cycle.
     """
     problem = discretize(statement(f=1, obstacle=0.5, domain={"diagonal": diagonal}), element, 4)
-    for method in METHODS:
-        if extremes.applies(problem, method):
-            solution = solve(problem, method)
-            assert solution.status == "solved"
-            assert solution.iterations <= 10
-            np.testing.assert_allclose(solution.u[problem.contact], 0.5, rtol=0, atol=0.02)
+    for _, solution in solutions(problem):
+        assert solution.status == "solved"
+        assert solution.iterations <= 10
+        np.testing.assert_allclose(solution.u[problem.contact], 0.5, rtol=0, atol=0.02)
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -102,21 +103,23 @@ def test_case_3_success_rate(family, monkeypatch):
     """
     monkeypatch.setattr("signorini.studies.stability.success.RIVALS", {})
     seeds = range(3 if family in HARD else 6)
-    rows = measure(family, seeds, few=0, time_limit=1.0)
-    assert sum(row["solver"] == "ours" for row in rows) == 14 * len(seeds)
-    assert all(map(answered, rows))
-    ordinary = [row for row in rows if not {family, row["load"]} & set(HARD)]
-    assert all(row["claimed"] and row["residual"] <= 1e-9 for row in ordinary)
-    assert all(row["error"] <= max(4 * row["accuracy"], 1e-12) for row in ordinary)
+    rows = frame(measure(family, seeds, few=0, time_limit=1.0))
+    assert (rows["solver"] == "ours").sum() == 14 * len(seeds)
+    assert answered(rows).all()
+    ordinary = rows[~rows["load"].isin(HARD)] if family not in HARD else rows[:0]
+    assert (ordinary["claimed"] == 1).all()
+    assert (ordinary["residual"] <= 1e-9).all()
+    assert (ordinary["error"] <= np.maximum(4 * ordinary["accuracy"], 1e-12)).all()
     assert not any(row["wrong"] or row["wrong_side"] for row in statuses(rows))
-    answers = [row for row in rows if row["claimed"]]
-    assert all(estimated(row) and estimated(row, "multiplier_") for row in answers)
+    answers = rows[rows["claimed"] == 1]
+    assert estimated(answers).all()
+    assert estimated(answers, "multiplier_").all()
 
 
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(problems())
 def test_case_4_random_scenes_agree_with_bvls(problem):
-    rows = extremes.compare(problem)
+    rows = compare(problem)
     assert rows
     for row in rows:
         assert (
@@ -166,7 +169,8 @@ def test_case_10_one_thread_or_two():
         "from signorini.solvers import METHODS, solve\n"
         "for element in ('P1', 'CR'):\n"
         "    for method in METHODS:\n"
-        "        print(solve(discretize(statement(**DATA), element, 48), method).u.tobytes().hex())\n"
+        "        problem = discretize(statement(**DATA), element, 48)\n"
+        "        print(solve(problem, method).u.tobytes().hex())\n"
     )
     found = [
         subprocess.run(

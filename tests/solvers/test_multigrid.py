@@ -16,12 +16,12 @@ from builders import DATA, delaunay, grid, statement
 from signorini.exceptions import MeshError, SolverError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize, discretize_on
+from signorini.generated.problems import instance
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
 from signorini.solvers.dot import dot
 from signorini.solvers.hierarchy import Cycle, build_hierarchy
-from signorini.studies.stability.problems import instance
 from signorini.work import counting
 
 

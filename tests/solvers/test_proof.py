@@ -15,10 +15,10 @@ from builders import DATA, delaunay, grid, statement
 from signorini.exceptions import SolverError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize, discretize_on
+from signorini.generated.problems import instance
+from signorini.judge import judge
 from signorini.mesh.triangulation import Triangulation
 from signorini.solvers import METHODS, kkt_residual, multigrid, solve
-from signorini.studies.stability.extended import judge
-from signorini.studies.stability.problems import instance
 
 FORCE = "2*pi*sin(2*pi*x)"
 INCLUSIONS = "where(hypot(x-0.3, y-0.02) < 0.1 or hypot(x-0.8, y) < 0.1, {0}, 1)"

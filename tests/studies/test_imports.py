@@ -19,9 +19,15 @@ def test_no_other_command_can_import_pandas_or_jinja2(command):
     ] == []
 
 
-@pytest.mark.parametrize("study", ["benchmark", "sensitivity"])
+MEASURING = {
+    "benchmark": "benchmark point",
+    "sensitivity": "sensitivity errors",
+    "stability": "stability success",
+}
+
+
+@pytest.mark.parametrize("study", MEASURING)
 def test_the_templates_of_a_page_are_inputs_of_its_job_alone(study):
     found = {path.name for path in sources(f"{study} report")}
     assert {"page.md.j2", "document.md.j2", "document.tex.j2"} <= found
-    measuring = "benchmark point" if study == "benchmark" else "sensitivity errors"
-    assert [path for path in sources(measuring) if path.suffix == ".j2"] == []
+    assert [path for path in sources(MEASURING[study]) if path.suffix == ".j2"] == []

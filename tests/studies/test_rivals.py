@@ -8,9 +8,9 @@ import pytest
 
 from builders import DATA, delaunay, statement
 from signorini.fem.problem import discretize_on
+from signorini.generated.problems import instance
 from signorini.solvers import kkt_residual, solve
 from signorini.studies.rivals import RIVALS, BoundProblem, Rival, active_set
-from signorini.studies.stability.problems import instance
 
 
 @pytest.fixture(params=["P1", "CR"])

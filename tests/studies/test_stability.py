@@ -1,6 +1,8 @@
 """The stability suite measures what it says: statuses, digits, success rates, claims."""
 
+import doctest
 import time
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,19 +10,34 @@ import pytest
 
 from builders import DATA, delaunay, statement
 from signorini.errors.reference import ReferenceErrors
+from signorini.exceptions import SignoriniError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize
+from signorini.generated import problems as generated_problems
+from signorini.generated.bodies import FAMILIES
+from signorini.generated.numbering import renumber
+from signorini.generated.problems import LOADS, instance
+from signorini.judge import judge
+from signorini.scene.schema import validated
+from signorini.scene.strict_yaml import load_yaml
 from signorini.solvers import METHODS, solve
 from signorini.studies.rivals.worker import Worker
-from signorini.studies.stability import digits as stability_digits
-from signorini.studies.stability import proof as stability_proof
-from signorini.studies.stability import round_off as stability_floor
-from signorini.studies.stability import success as stability_success
-from signorini.studies.stability.bodies import FAMILIES
+from signorini.studies.stability import digits as variants
+from signorini.studies.stability import parts, summaries
 from signorini.studies.stability.claims import claims
-from signorini.studies.stability.extended import judge
-from signorini.studies.stability.parts import digits_by_cell, error_pairs, shares, title, titles
-from signorini.studies.stability.problems import LOADS, instance
+from signorini.studies.stability.parts import (
+    digits_by_cell,
+    error_pairs,
+    frame,
+    shares,
+    title,
+    titles,
+)
+from signorini.studies.stability.proof import proof, proofs
+from signorini.studies.stability.verdicts import answered, estimated
+
+ROOT = Path(__file__).parents[2]
+SCHEMA = ROOT / "src/signorini/studies/stability/settings.schema.yaml"
 
 
 @pytest.mark.parametrize("load", LOADS)
@@ -138,16 +155,17 @@ def test_success_is_claimed_and_true():
         rows(claimed=0),
         rows(residual=np.inf, claimed=0),
     ]
-    (row,) = stability_success.summary(found, time_limit=1.0)
+    (row,) = summaries.solvers(frame(found), time_limit=1.0)
     assert (row["problems"], row["solved_1e-06"], row["solved_1e-09"]) == (5, 0.4, 0.2)
     assert (row["wrong"], row["unclaimed"]) == (1, 1)
-    shift = stability_success.SHIFT
+    shift = summaries.SHIFT
     spent = np.exp(np.mean(np.log([0.01 + shift, *[1.0 + shift] * 4]))) - shift
     assert row["seconds"] == pytest.approx(spent, rel=1e-12)
 
 
 def test_loads_of_another_size_are_left_out_of_the_ordinary():
-    (row,) = stability_success.summary([rows(), rows(load="tiny", residual=1.0)], time_limit=1.0)
+    found = frame([rows(), rows(load="tiny", residual=1.0)])
+    (row,) = summaries.solvers(found, time_limit=1.0)
     assert (row["solved_1e-09"], row["ordinary_1e-09"]) == (0.5, 1.0)
 
 
@@ -166,7 +184,7 @@ def test_a_status_better_than_the_error_is_wrong():
         refused(limit=1.0),
         refused(limit=1e-4),
     ]
-    (row,) = stability_proof.statuses(found)
+    (row,) = summaries.statuses(frame(found))
     assert (row["solutions"], row["solved"], row["wrong"], row["inaccurate"], row["needed"]) == (
         10,
         5,
@@ -203,7 +221,7 @@ def test_a_status_better_than_the_error_is_wrong():
     ],
 )
 def test_less_than_solved_is_right_only_where_double_precision_cannot(row, right):
-    assert stability_proof.answered(row) is right
+    assert answered(frame([row])).item() is right
 
 
 @pytest.mark.parametrize(
@@ -225,8 +243,8 @@ def test_less_than_solved_is_right_only_where_double_precision_cannot(row, right
 @pytest.mark.parametrize("which", ["", "multiplier_"])
 def test_an_estimate_is_within_a_tenth_and_a_thousand(which, accuracy, error, right):
     row = rows("ours/direct", **{f"{which}accuracy": accuracy, f"{which}error": error})
-    assert stability_proof.estimated(row, which) is right
-    (found,) = stability_proof.estimates([row, refused()])
+    assert estimated(frame([row]), which).item() is right
+    (found,) = summaries.estimates(frame([row, refused()]))
     other = "multiplier_" if not which else ""
     assert (found[f"{which}missed"], found[f"{other}missed"], found["answers"]) == (
         int(not right),
@@ -240,15 +258,15 @@ def test_estimates_are_those_of_the_answers():
         rows("ours/direct", accuracy=a, error=e)
         for a, e in ((1e-9, 1e-10), (1e-9, 1e-9), (1e-9, 1e-8))
     ]
-    (row,) = stability_proof.estimates(found)
+    (row,) = summaries.estimates(frame(found))
     assert (row["least"], row["median"], row["most"], row["missed"]) == pytest.approx(
         (0.1, 1, 10, 0)
     )
-    assert error_pairs(found)["u"][0] == (1e-10, 1e-9, True)
+    assert error_pairs(frame(found))["u"][0] == (1e-10, 1e-9, True)
 
 
 def test_a_solve_is_held_against_the_judge():
-    """Forces a thousandth too large, and one contact dof on the wrong side, named undecided or not."""
+    """Forces a thousandth too large, one contact dof on the wrong side, named undecided or not."""
     problem = discretize(statement(**DATA), "P1", 8)
     right, truth = solve(problem), judge(problem)
     flipped = right.active.copy()
@@ -266,13 +284,13 @@ def test_a_solve_is_held_against_the_judge():
                 "multiplier_accuracy": 1e-12,
             },
         )
-        row = stability_proof.proof(problem, lie, "", truth)
+        row = proof(problem, lie, "", truth)
         assert row["error"] == pytest.approx(1e-6, rel=1e-6)
         assert row["multiplier_error"] == pytest.approx(1e-3, rel=1e-6)
         assert row["wrong_side"] == 1 - undecided.sum() == 1 - row["needless"]
         assert row["multiplier_floor"] >= row["floor"] == 4 * np.finfo(float).eps
         assert row["rounded_residual"] <= 1e-15
-    row = stability_proof.proof(problem, None, "no digit: too stretched", truth)
+    row = proof(problem, None, "no digit: too stretched", truth)
     assert (row["claimed"], row["status"], row["refused"]) == (
         False,
         "refused",
@@ -281,7 +299,7 @@ def test_a_solve_is_held_against_the_judge():
 
 
 def test_a_family_is_solved_by_every_route_that_applies():
-    found = stability_proof.proofs(instance("right-angled", "smooth", "P1", 0).problem)
+    found = proofs(instance("right-angled", "smooth", "P1", 0).problem)
     assert [row["solver"] for row in found] == [
         "ours",
         "ours/fourier",
@@ -303,26 +321,34 @@ def test_a_claim_that_is_not_met_says_so():
         ],
         "critical-points": [{"critical_points": 9, "residual": 1.0}],
         "contact-sets": [{"active": 1, "expected": 0, "iterations": 1}],
-        "walk": [{"status": "refused"}, {"status": "solved", "difference": 1.0, "condition": 1.0}],
+        "walk": [
+            {"status": "refused", "stored": 0.0},
+            {"status": "solved", "stored": 0.0, "difference": 1.0, "condition": 1.0},
+        ],
     }
+    extremes = {kind: frame(found) for kind, found in extremes.items()}
     lie = rows(residual=1.0, error=1.0, multiplier_error=1.0)
-    found = claims([lie], [{"wrong": 1, "wrong_side": 1}], [{"digits": 10.9}], extremes)
+    found = claims(frame([lie]), [{"wrong": 1, "wrong_side": 1}], [{"digits": 10.9}], extremes)
     assert len(found) == 15
     assert not any(row["met"] for row in found)
 
 
 def test_digits_are_those_that_no_variant_changes():
     key = {"element": "P1", "n": 2, "norm": "l2"}
-    found = [key | {"variant": "a", "value": 1 + 1e-9}, key | {"variant": "b", "value": 1 - 1e-7}]
-    (row,) = stability_digits.digits([key | {"value": 1.0}], found)
+    base = key | {"variant": "auto", "value": 1.0}
+    found = [
+        base,
+        *(base | {"variant": v, "value": x} for v, x in (("a", 1 + 1e-9), ("b", 1 - 1e-7))),
+    ]
+    (row,) = summaries.digits(frame(found))
     assert (row["digits_a"], row["digits_b"], row["digits"]) == pytest.approx((9, 7, 7), abs=1e-6)
-    (row,) = stability_digits.digits([key | {"value": 1.0}], [key | {"variant": "a", "value": 1.0}])
+    (row,) = summaries.digits(frame([base, base | {"variant": "a"}]))
     assert row["digits"] == pytest.approx(-np.log10(2.0**-52))
 
 
 def test_a_mesh_renumbered_is_the_same_mesh():
     mesh = delaunay(3)
-    other, vertex, facet = stability_digits.renumber(mesh, np.random.default_rng(0))
+    other, vertex, facet = renumber(mesh, np.random.default_rng(0))
     np.testing.assert_array_equal(other.p[:, vertex], mesh.p)
     np.testing.assert_array_equal(
         np.sort(other.facets[:, facet], axis=0), np.sort(vertex[mesh.facets], axis=0)
@@ -343,31 +369,31 @@ def test_variants_compute_the_same_table(name):
         "truth": {"element": "P1", "n": 16},
     }
     data = statement(load_quadrature="centroid", f="2*pi*sin(2*pi*x)")
-    base = stability_digits.variant("auto", data, asked, 1)
+    base = variants.variant("auto", data, asked, 1)
     truth = discretize(data, "P1", 16)
     coarse = discretize(data, "P1", 2)
     error = ReferenceErrors(truth.mesh, "P1", solve(truth).u).of(coarse.mesh, "P1", solve(coarse).u)
     assert base[0]["value"] == error["l2"]
-    found = stability_digits.variant(name, data, asked, 2)
+    found = variants.variant(name, data, asked, 2)
     assert len(found) == (len(METHODS) if name == "routes" else 2) * len(base)
-    assert min(row["digits"] for row in stability_digits.digits(base, found)) >= 11
+    assert min(row["digits"] for row in summaries.digits(frame(base + found))) >= 11
 
 
 def test_growth_and_crossings_are_those_of_powers():
     levels = [4, 8, 16, 32]
     table = [{"element": "P1", "n": n, "condition": 3.0 * n**2} for n in levels]
-    assert stability_floor.growth(table, "condition")["P1"] == pytest.approx((2, 3))
+    assert summaries.growth(frame(table), "condition")["P1"] == pytest.approx((2, 3))
     errors = [
         {
             "family": family,
             "element": "P1",
             "n": n,
-            **dict.fromkeys(stability_floor.NORMS, value(n)),
+            **dict.fromkeys(summaries.NORMS, value(n)),
         }
         for family, value in {"smooth": lambda n: n**-2.0, "patch": lambda n: 1e-16 * n}.items()
         for n in levels
     ]
-    for row in stability_floor.crossings(errors):
+    for row in summaries.crossings(frame(errors)):
         assert row["order"] == pytest.approx(2)
         assert row["h"] == pytest.approx(1e-16 ** (1 / 3))
 
@@ -379,6 +405,7 @@ def test_figures_show_shares_and_digits():
         rows("osqp", residual=1.0),
         rows("osqp", load="smooth"),
     ]
+    found = frame(found)
     assert digits_by_cell(found)["CR", "needles", "white"] == pytest.approx((9, 1))
     assert shares(found, "load")["osqp", "white"] == 0
     assert shares(found, "family")["osqp", "needles"] == 0.5
@@ -396,11 +423,38 @@ def test_a_floor_of_zero_has_neither_growth_nor_crossing():
         for family, error in (("smooth", 1.0), ("patch", 0.0))
         for n in (2, 4, 8, 16)
     ]
-    for row in stability_floor.crossings(errors):
+    for row in summaries.crossings(frame(errors)):
         assert (row["floor"], row["floor_order"], row["h"]) == (0.0, None, None)
-    assert (
-        stability_floor.growth(
-            [{"element": "P1", "error": 0.0, "aspect": 1e-2}], "error", by="aspect"
-        )
-        == {}
-    )
+    flat = frame([{"element": "P1", "error": 0.0, "aspect": 1e-2}])
+    assert summaries.growth(flat, "error", by="aspect") == {}
+
+
+@pytest.mark.parametrize("module", [parts, generated_problems])
+def test_the_examples_run(module):
+    failed, tried = doctest.testmod(module)
+    assert tried > failed == 0
+
+
+def test_the_settings_are_valid_and_name_every_family():
+    schema = load_yaml(SCHEMA)
+    settings = validated(load_yaml(ROOT / "config/stability.yaml"), schema, "stability.yaml")
+    assert settings["families"] == list(FAMILIES)
+    assert schema["properties"]["families"]["items"]["enum"] == list(FAMILIES)
+    assert settings["quick"].keys() < settings.keys()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("few: 3 ", "view: 3 ", "success.view: unknown key"),
+        ("seeds: 25", "seeds: 0", "success.seeds: 0 is not valid"),
+        ("needles", "noodles", 'families.6: "noodles" is not valid'),
+        ("  auto: {}\n", "", "digits.auto: missing"),
+    ],
+)
+def test_a_mistake_in_the_settings_is_named(old, new, complaint, write):
+    text = (ROOT / "config/stability.yaml").read_text(encoding="utf-8")
+    assert old in text
+    path = write(text.replace(old, new, 1), "stability.yaml")
+    with pytest.raises(SignoriniError, match=complaint):
+        validated(load_yaml(path), load_yaml(SCHEMA), path)

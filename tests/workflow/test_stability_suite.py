@@ -9,8 +9,8 @@ from datetime import date
 import pytest
 from project import FILES, LATEX, Project, rooms_of, undeclared
 
+from signorini.generated.bodies import FAMILIES
 from signorini.report.typeset import typeset
-from signorini.studies.stability.bodies import FAMILIES
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 
@@ -106,7 +106,7 @@ def test_seeds_are_fixed_or_those_of_a_day_in_a_folder_of_their_own(tmp_path, se
     asked = ("--config", "quick=true", f"seeds={seeds}", "--", "stability")
     text = Project.fresh(tmp_path / "project").build("-n", "-p", "--quiet", "host", *asked).text
     day = "" if seeds == "fixed" else f"-{first.removesuffix('000')}"
-    assert f"--family needles --seeds {first} 1 " in text
+    assert f"stability success needles --seeds {first} 1 " in text
     assert f"results/quick/stability{day}/success/needles.csv" in text
     assert ("results/quick/stability/" in text) == (seeds == "fixed")
     assert (f"seeds: {first.removesuffix('000')};" in text) == (seeds == "random")

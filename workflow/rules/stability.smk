@@ -9,14 +9,15 @@ rule stability_success:
     log:
         f"{STABILITY}/logs/success_{{family}}.log",
     wildcard_constraints:
-        family="|".join(PROBLEM_FAMILIES),
+        family=NAME,
     params:
         content=content("stability success"),
-        seeds=f"{1000 * SEEDS} {1 if QUICK else 25}",
-        few=1 if QUICK else 3,
-        limit=0.1 if QUICK else 1,
+        first=1000 * SEEDS,
+        seeds=lambda wildcards: suite()["success"]["seeds"],
+        few=lambda wildcards: suite()["success"]["few"],
+        limit=lambda wildcards: suite()["success"]["time_limit"],
     shell:
-        "python3 -m signorini stability success {wildcards.family} --seeds {params.seeds} --few {params.few}"
+        "python3 -m signorini stability success {wildcards.family} --seeds {params.first} {params.seeds} --few {params.few}"
         " --time-limit {params.limit} -o {output:q} 2>&1 | tee {log:q}"
 
 
@@ -29,15 +30,15 @@ rule stability_digits:
     log:
         f"{STABILITY}/logs/digits_{{variant}}.log",
     wildcard_constraints:
-        variant="|".join(VARIANTS),
+        variant=NAME,
     params:
         content=content("stability digits"),
         statement=lambda wildcards: statement_of("paper"),
         asked=of_paper("elements", "levels", "truth", "norms"),
         quick=QUICK_OPTION,
-        name=lambda wildcards: wildcards.variant.removesuffix("-two-threads"),
-        samples=lambda wildcards: {"last-bit": 5, "renumbered": 2}.get(wildcards.variant, 1),
-        threads=lambda wildcards: VARIANTS[wildcards.variant],
+        name=lambda wildcards: digits_setting(wildcards, "variant", wildcards.variant),
+        samples=lambda wildcards: digits_setting(wildcards, "samples", 1),
+        threads=lambda wildcards: digits_setting(wildcards, "threads", 1),
     shell:
         "python3 -m signorini stability digits {input.scene:q} --variant {params.name}"
         " --samples {params.samples} --threads {params.threads} {params.quick} -o {output:q}"
@@ -52,11 +53,11 @@ rule stability_floor:
     log:
         f"{STABILITY}/logs/floor_{{piece}}.log",
     wildcard_constraints:
-        piece="|".join(FLOOR),
+        piece="(smooth|patch)-(P1|CR)|conditions|stretching",
     priority: 5
     params:
         content=content("stability round-off"),
-        levels=lambda wildcards: list(FLOOR[wildcards.piece]),
+        levels=lambda wildcards: suite()["round_off"][wildcards.piece.partition("-")[0]],
     shell:
         "python3 -m signorini stability round-off {wildcards.piece} --levels {params.levels} -o {output:q}"
         " 2>&1 | tee {log:q}"
@@ -70,10 +71,10 @@ rule stability_extremes:
     log:
         f"{STABILITY}/logs/extremes_{{kind}}.log",
     wildcard_constraints:
-        kind="|".join(EXTREMES),
+        kind="scaling|sizes|offsets|critical-points|contact-sets|walk",
     params:
         content=content("stability extremes"),
-        values=lambda wildcards: list(EXTREMES[wildcards.kind]),
+        values=lambda wildcards: suite()["extremes"][wildcards.kind],
     shell:
         "python3 -m signorini stability extremes {wildcards.kind} --values {params.values} -o {output:q}"
         " 2>&1 | tee {log:q}"
@@ -82,10 +83,10 @@ rule stability_extremes:
 rule stability_report:
     input:
         library("stability report"),
-        success=stability_pieces("success", PROBLEM_FAMILIES),
-        digits=stability_pieces("digits", VARIANTS),
-        floor=stability_pieces("floor", FLOOR),
-        extremes=stability_pieces("extremes", EXTREMES),
+        success=success_files,
+        digits=lambda wildcards: stability_pieces("digits", suite()["digits"]),
+        floor=round_off_files,
+        extremes=lambda wildcards: stability_pieces("extremes", suite()["extremes"]),
     output:
         tex=f"{STABILITY}/stability.tex",
         markdown=f"{STABILITY}/stability.md",
@@ -94,7 +95,7 @@ rule stability_report:
         f"{STABILITY}/logs/report.log",
     params:
         content=content("stability report"),
-        limit=0.1 if QUICK else 1,
+        limit=lambda wildcards: suite()["success"]["time_limit"],
         seeds=SEEDS,
         folder=subpath(output[0], parent=True),
     shell:
@@ -105,8 +106,8 @@ rule stability_report:
 rule figure_stability:
     input:
         library("stability figures"),
-        success=stability_pieces("success", PROBLEM_FAMILIES),
-        floor=stability_pieces("floor", FLOOR),
+        success=success_files,
+        floor=round_off_files,
     output:
         [
             f"{STABILITY}/stability_{figure}.{ending}"

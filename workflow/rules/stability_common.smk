@@ -1,4 +1,4 @@
-# What the rules of the stability suite generate and ask for.
+# What the rules of the stability suite ask of config/stability.yaml.
 from datetime import date
 
 
@@ -21,34 +21,33 @@ STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")
 STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
 
-# As in signorini.studies.stability.bodies.FAMILIES.
-PROBLEM_FAMILIES = [
-    *("right-angled", "rising", "criss-cross", "delaunay", "perturbed", "stretched", "needles"),
-    *("graded", "inclusions", "layers", "oscillating"),
-]
-VARIANTS = {
-    "auto": 1,
-    "routes": 1,
-    "routes-two-threads": 2,
-    "last-bit": 1,
-    "renumbered": 1,
-}  # and their threads
+STABILITY_SETTINGS = "config/stability.yaml"
+STABILITY_SCHEMA = LIBRARY / "signorini/studies/stability/settings.schema.yaml"
 
-_FINEST = {"smooth": 6 if QUICK else 11, "patch": 6 if QUICK else 12}
-FLOOR = {
-    **{
-        f"{family}-{element}": [2**k for k in range(1, finest + 1)]
-        for family, finest in _FINEST.items()
-        for element in ("P1", "CR")
-    },
-    "conditions": [4, 8, 16, 32] if QUICK else [4, 8, 16, 32, 64, 128],
-    "stretching": range(0, 9) if QUICK else [k / 2 for k in range(17)],
-}
-EXTREMES = {
-    "scaling": [-900, 900] if QUICK else range(-900, 901, 100),
-    "sizes": [-9, 9] if QUICK else range(-9, 10, 3),
-    "offsets": [4, 14] if QUICK else range(2, 17, 2),
-    "critical-points": [4, 64] if QUICK else [4, 64, 1024, 4096],
-    "contact-sets": [],
-    "walk": [50] if QUICK else [3000],
-}
+
+@cache
+@reported
+def suite():
+    """The settings, checked, with what stands under quick in place of the rest where that is asked for."""
+    settings = validated(
+        load_yaml(STABILITY_SETTINGS), load_yaml(STABILITY_SCHEMA), STABILITY_SETTINGS
+    )
+    return settings | (settings.get("quick", {}) if QUICK else {})
+
+
+def success_files(wildcards):
+    return stability_pieces("success", suite()["families"])
+
+
+def round_off_files(wildcards):
+    """Of a family of exact solutions a file for each element."""
+    names = [
+        piece
+        for name in suite()["round_off"]
+        for piece in ([f"{name}-P1", f"{name}-CR"] if name in ("smooth", "patch") else [name])
+    ]
+    return stability_pieces("floor", names)
+
+
+def digits_setting(wildcards, key, default):
+    return suite()["digits"][wildcards.variant].get(key, default)

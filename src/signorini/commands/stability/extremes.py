@@ -8,6 +8,7 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
 from signorini.storage import write_csv
 from signorini.studies.stability import extremes
+from signorini.studies.stability.walk import walk
 
 _KINDS = {
     "scaling": lambda values: extremes.scaling([int(k) for k in values]),
@@ -15,7 +16,7 @@ _KINDS = {
     "offsets": lambda values: extremes.domains([], [10.0**k for k in values]),
     "critical-points": lambda values: extremes.many_critical_points([int(k) for k in values]),
     "contact-sets": lambda values: extremes.contact_sets(),
-    "walk": lambda values: extremes.walk(int(values[0])),
+    "walk": lambda values: walk(int(values[0])),
 }
 
 

@@ -12,12 +12,14 @@ from signorini.figures.style import save_figure
 from signorini.studies.stability.parts import (
     digits_by_cell,
     error_pairs,
+    errors_of,
     read_parts,
+    records,
     shares,
     titles,
 )
-from signorini.studies.stability.proof import OVERESTIMATE, UNDERESTIMATE
-from signorini.studies.stability.round_off import growth
+from signorini.studies.stability.summaries import growth
+from signorini.studies.stability.verdicts import OVERESTIMATE, UNDERESTIMATE
 
 
 def add_arguments(parser):
@@ -29,14 +31,14 @@ def run(arguments):
     """Draw each as PDF and PNG beside the pieces."""
     parts = read_parts(arguments.folder)
     success, floor = parts["success"], parts["floor"]
-    errors = [row for name, piece in floor.items() if "-" in name for row in piece]
     by_load, by_family = shares(success, "load"), shares(success, "family")
+    errors, conditions = records(errors_of(floor)), growth(floor["conditions"], "condition")
     drawings = {
         "ours": figures.draw_digits(digits_by_cell(success)),
         "rivals": figures.draw_rivals(by_load, by_family, titles(success)),
         "estimates": figures.draw_estimates(error_pairs(success), (UNDERESTIMATE, OVERESTIMATE)),
-        "floor": figures.draw_floor(errors, growth(floor["conditions"], "condition")),
-        "stretched": figures.draw_stretched(floor["stretching"]),
+        "floor": figures.draw_floor(errors, conditions),
+        "stretched": figures.draw_stretched(records(floor["stretching"])),
     }
     for name, figure in drawings.items():
         for ending in ("pdf", "png"):

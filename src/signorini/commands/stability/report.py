@@ -8,10 +8,8 @@ from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.storage import write_csv, write_text
-from signorini.studies.stability.parts import CAPTIONS, read_parts
-from signorini.studies.stability.report import Report
-
-_TABLES = ("solvers", "statuses", "estimates", "digits", "crossings")
+from signorini.studies.stability.parts import read_parts
+from signorini.studies.stability.report import page, summarise
 
 
 def add_arguments(parser):
@@ -23,13 +21,14 @@ def add_arguments(parser):
 
 def run(arguments):
     """Write the page and the tables beside the pieces."""
-    folder = arguments.folder
-    report = Report(read_parts(folder), arguments.time_limit, arguments.seeds)
-    write_text(folder / "stability.tex", report.tex(CAPTIONS))
-    write_text(folder / "stability.md", report.markdown(CAPTIONS))
-    claims = report.claims()
-    write_csv(folder / "claims.csv", claims)
-    for name in _TABLES:
-        write_csv(folder / f"{name}.csv", getattr(report, name))
+    folder, limit = arguments.folder, arguments.time_limit
+    parts = read_parts(folder)
+    found = summarise(parts, limit)
+    for layout, ending in (("latex", "tex"), ("markdown", "md")):
+        text = page(parts, found, layout, limit, arguments.seeds)
+        write_text(folder / f"stability.{ending}", text)
+    for name, rows in found.items():
+        write_csv(folder / f"{name}.csv", rows)
+    claims = found["claims"]
     met = sum(row["met"] for row in claims)
     return Outcome(f"stability: {met} of {len(claims)} claims met")

@@ -1,44 +1,33 @@
-"""The pieces that the stability suite's jobs wrote, read again, and what its figures show of them."""
+"""The pieces that the suite's jobs wrote, read again, and what its figures show of them."""
 
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
+from signorini.generated.bodies import FAMILIES
 from signorini.storage import read_csv
 from signorini.studies.rivals import RIVALS
-from signorini.studies.stability.bodies import FAMILIES
-from signorini.studies.stability.proof import answered
-from signorini.studies.stability.success import TOLERANCES
-
-CAPTIONS = {
-    "ours": "Correct digits of our worst solution of each kind: -log10 of the largest error of u at an unknown, "
-    "relative to the variation of u, against the solution in extended precision; a percentage where not all problems "
-    "are solved, or rightly called inaccurate or refused.",
-    "rivals": "Percent of the problems claimed solved with a recomputed KKT residual of at most 1e-9, by load and by "
-    "mesh.",
-    "estimates": "The accuracy that a solution states against its true error, of u and of the contact forces, all "
-    "routes and problems, thinned to one mark for each tenth of a decade; dashed, what is promised: at least "
-    "a tenth of the error, at most a thousand times it or four roundings.",
-    "floor": "Errors of the family smooth, and of the family patch, which is round-off alone, by the route taken "
-    "unasked; dotted, the unit round-off times the condition number of the stiffness matrix, continued by its power of "
-    "h.",
-    "stretched": "The contact patch test on shaken meshes pressed flat, by the direct route. Filled marks: called "
-    "solved; hollow: inaccurate; where a mark is missing, the error is zero or the solve refused.",
-}
+from signorini.studies.stability.summaries import EPS, in_order, solved_to
+from signorini.studies.stability.verdicts import answered
 
 _TEXTS = (
-    "family",
-    "load",
-    "element",
-    "solver",
-    "status",
-    "variant",
-    "norm",
-    "method",
-    "case",
-    "kind",
-    "refused",
+    *("family", "load", "element", "solver", "status", "variant", "norm", "method", "case"),
+    *("kind", "refused"),
 )
+
+
+def frame(rows):
+    """Rows of a job as a frame: text, and floating-point numbers, not a number where empty.
+
+    Examples
+    --------
+    >>> frame([{"element": "P1", "error": "1e-3"}, {"element": "CR", "error": ""}])["error"].max()
+    np.float64(0.001)
+    """
+    found = pd.DataFrame(rows)
+    numbers = found.columns.difference(_TEXTS)
+    return found.assign(**found[numbers].replace("", np.nan).astype(float))
 
 
 def read_parts(folder):
@@ -47,92 +36,91 @@ def read_parts(folder):
     Parameters
     ----------
     folder : str or Path
-        With the folders ``success``, ``digits``, ``floor``, ``extremes``; those that are not there
-        are left out.
+        With the folders ``success``, ``digits``, ``floor``, ``extremes``; what is not there is left
+        out.
 
     Returns
     -------
     dict
-        ``success`` and ``digits``: rows of all their files; ``floor`` and ``extremes``: rows by
+        ``success`` and ``digits``: frames of all their files; ``floor`` and ``extremes``: frames by
         file name.
     """
     pieces = {
-        part: {path.stem: _read(path) for path in sorted(Path(folder, part).glob("*.csv"))}
-        for part in ("success", "digits", "floor", "extremes")
+        part: _read(Path(folder, part)) for part in ("success", "digits", "floor", "extremes")
     }
-    pieces["success"] = {
-        family: pieces["success"][family] for family in FAMILIES if family in pieces["success"]
-    }
-    joined = {
-        part: [row for rows in pieces[part].values() for row in rows]
-        for part in ("success", "digits")
-    }
-    return pieces | joined
+    pieces["success"] = {name: pieces["success"][name] for name in FAMILIES}
+    return pieces | {part: _joined(pieces[part].values()) for part in ("success", "digits")}
 
 
-def _read(path):
-    names = read_csv(path)[0]
-    return read_csv(path, numbers=[name for name in names if name not in _TEXTS])
+def _read(folder):
+    return {path.stem: frame(read_csv(path)) for path in sorted(folder.glob("*.csv"))}
+
+
+def _joined(frames):
+    return pd.concat(frames) if frames else pd.DataFrame()
+
+
+def errors_of(floor):
+    """Of the pieces of `floor`, the errors of the families of exact solutions."""
+    return pd.concat([piece for name, piece in floor.items() if "-" in name])
+
+
+def records(rows):
+    """A frame as a list of dict, None where it is not a number."""
+    return rows.astype(object).where(rows.notna(), None).to_dict("records")
 
 
 def digits_by_cell(rows):
     """(element, family, load) -> (digits of our worst solution, share `answered`)."""
-    found, ours = {}, [row for row in rows if row["solver"].startswith("ours")]
-    for key in dict.fromkeys((row["element"], row["family"], row["load"]) for row in ours):
-        own = [row for row in ours if (row["element"], row["family"], row["load"]) == key]
-        worst = max((row["error"] for row in own if row["error"]), default=0.0)
-        found[key] = (
-            -np.log10(max(worst, np.finfo(float).eps)),
-            np.mean([answered(row) for row in own]),
-        )
-    return found
+    ours = rows[rows["solver"].str.startswith("ours")]
+    cells = ours.assign(answered=answered(ours))
+    cells = cells.groupby(["element", "family", "load"], sort=False)
+    digits = -np.log10(cells["error"].max().clip(lower=EPS).fillna(EPS))
+    return dict(zip(digits.index, zip(digits, cells["answered"].mean(), strict=True), strict=True))
 
 
 def error_pairs(rows):
-    """For u and for the contact forces, the (true error, stated accuracy, whether called solved)
-    that are positive.
+    """What is positive of (true error, stated accuracy, whether called solved).
+
+    Returns
+    -------
+    dict
+        ``u`` and ``contact forces``, lists of such tuples.
     """
-    ours = [row for row in rows if row["solver"].startswith("ours/") and row["claimed"]]
-    names = {
-        "u": ("error", "accuracy"),
-        "contact forces": ("multiplier_error", "multiplier_accuracy"),
-    }
-    return {
-        title: [
-            (*(row[key] for key in keys), row["status"] == "solved")
-            for row in ours
-            if min(row[k] for k in keys) > 0
-        ]
-        for title, keys in names.items()
-    }
+    ours = rows[rows["solver"].str.startswith("ours/") & (rows["claimed"] > 0)]
+    pairs = {}
+    for title, which in (("u", ""), ("contact forces", "multiplier_")):
+        error, accuracy = ours[f"{which}error"], ours[f"{which}accuracy"]
+        shown = (error > 0) & (accuracy > 0)
+        solved = ours["status"] == "solved"
+        pairs[title] = list(zip(error[shown], accuracy[shown], solved[shown], strict=True))
+    return pairs
 
 
 def shares(rows, column):
-    """(solver, value of a column) -> share of the problems solved to the last of `TOLERANCES`."""
-    keys = dict.fromkeys((row["solver"], row[column]) for row in rows)
-    groups = {key: [row for row in rows if (row["solver"], row[column]) == key] for key in keys}
-    return {key: float(np.mean([_solved(row) for row in own])) for key, own in groups.items()}
+    """How much of the problems each solver solved, to the last of `TOLERANCES`.
+
+    Parameters
+    ----------
+    rows : pandas.DataFrame
+    column : str
+
+    Returns
+    -------
+    dict
+        (solver, value of the column) -> share.
+    """
+    solved = rows.assign(solved=solved_to(rows))
+    return solved.groupby(["solver", column], sort=False)["solved"].mean().to_dict()
 
 
 def titles(rows):
     """Solver -> its name in figures and tables, ours first."""
-    solvers = dict.fromkeys(row["solver"] for row in rows)
-    return {
-        solver: title(solver)
-        for solver in sorted(solvers, key=lambda name: not name.startswith("ours"))
-    }
+    return {solver: title(solver) for solver in in_order(rows["solver"])}
 
 
 def title(solver):
     """The name of a solver in figures and tables."""
-    if solver == "ours":
-        return "signorini"
-    return (
-        f"signorini {solver.removeprefix('ours/')}"
-        if solver.startswith("ours/")
-        else RIVALS[solver].title
-    )
-
-
-def _solved(row):
-    return bool(row["claimed"]) and row["residual"] <= TOLERANCES[-1]
+    if solver.startswith("ours"):
+        return f"signorini {solver[5:]}".strip()
+    return RIVALS[solver].title

@@ -2,7 +2,9 @@
 rational numbers.
 """
 
+import doctest
 from fractions import Fraction
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,14 +14,14 @@ from builders import DATA, delaunay, grid, statement
 from rational import exact_solution, rounded
 from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
+from signorini.generated.bodies import BOUNDARIES, pressed_flat
+from signorini.generated.problems import instance
+from signorini.judge import EPS, couplings, elimination, judge, judgement, search
+from signorini.judge.couplings import extended_stiffness
+from signorini.judge.elimination import Elimination
 from signorini.mesh.grid import SIDES
 from signorini.mesh.labels import labelled
 from signorini.solvers import solve
-from signorini.studies.stability.bodies import BOUNDARIES, pressed_flat
-from signorini.studies.stability.couplings import extended_stiffness
-from signorini.studies.stability.elimination import Elimination
-from signorini.studies.stability.extended import EPS, judge
-from signorini.studies.stability.problems import instance
 
 extended_only = pytest.mark.skipif(EPS > 1e-18, reason="this machine's long double has 64 bits")
 
@@ -217,6 +219,14 @@ def test_what_double_precision_cannot_is_told_from_what_it_can():
     assert max(graded.limit, graded.multiplier_limit(graded.active)) < 1e-12
 
 
+@extended_only
+@pytest.mark.parametrize("module", [couplings, elimination, judgement, search])
+def test_the_examples_run(module, monkeypatch):
+    monkeypatch.chdir(Path(__file__).parents[2])
+    failed, tried = doctest.testmod(module)
+    assert tried > failed == 0
+
+
 def test_elimination_is_that_of_the_matrix():
     rng = np.random.default_rng(0)
     weights = np.triu(rng.random((6, 6)), 1).astype(np.longdouble)
@@ -229,11 +239,11 @@ def test_elimination_is_that_of_the_matrix():
     block = border.T @ np.linalg.solve(inner, border)
     np.testing.assert_allclose(found.block[0, 1].astype(float), block[0, 1], rtol=1e-14)
     load, kept = rng.random((4, 3)), rng.random((2, 3))
-    parts, reduced = found.reduce(load.astype(np.longdouble))
+    parts, reduced = found.condense(load.astype(np.longdouble))
     np.testing.assert_allclose(
         reduced.astype(float), border.T @ np.linalg.solve(inner, load), rtol=1e-13
     )
-    values = found.extend(parts, kept.astype(np.longdouble)).astype(float)
+    values = found.back_substitute(parts, kept.astype(np.longdouble)).astype(float)
     np.testing.assert_allclose(values, np.linalg.solve(inner, load + border @ kept), rtol=1e-13)
 
 
@@ -250,6 +260,6 @@ def test_elimination_keeps_what_a_matrix_loses():
     )
     load = np.zeros((n, 1), dtype=np.longdouble)
     load[-1] = 1
-    parts, _ = chain.reduce(load)
-    values = chain.extend(parts, np.zeros((1, 1), dtype=np.longdouble))[:, 0]
+    parts, _ = chain.condense(load)
+    values = chain.back_substitute(parts, np.zeros((1, 1), dtype=np.longdouble))[:, 0]
     np.testing.assert_allclose((values * ground).astype(float), np.ones(n), rtol=1e-15)

@@ -1,5 +1,4 @@
-"""The Dirichlet form as a network of couplings, in extended precision (80 bits), with what its
-rounding may be.
+"""The Dirichlet form as a network of couplings, in extended precision (80 bits).
 
 Vertices are taken as exact; of a `Grid`, the side lengths and numbers of cells.
 """
@@ -8,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
+from signorini.judge.elimination import EXTENDED
 from signorini.mesh.grid import Grid
-from signorini.studies.stability.elimination import EXTENDED
 
 # The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its
 # ends, of CR the others.
@@ -52,52 +51,61 @@ def couplings(mesh, element, coefficient=None):
     edges = _edge_vectors(mesh)
     crossing = edges[0, 0] * edges[1, 1], edges[0, 1] * edges[1, 0]
     area = np.abs(crossing[0] - crossing[1])
-    flat = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
-    scale = (
-        EXTENDED(0.5 * _FACTOR[element])
-        / area
-        * (1 if coefficient is None else coefficient.astype(EXTENDED))
-    )
-    dofs, found = find_element(element).triangle_dofs(mesh), []
+    cancelled = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
+    stiffness = 1 if coefficient is None else coefficient.astype(EXTENDED)
+    scale = EXTENDED(0.5 * _FACTOR[element]) / area * stiffness
+    dofs = find_element(element).triangle_dofs(mesh)
+    found = []
     for facet, (one, other) in enumerate(_COUPLED[element]):
-        along = edges[facet - 2] * edges[facet - 1]
-        weight = -scale * along.sum(axis=0)
-        found.append(
-            (
-                dofs[one],
-                dofs[other],
-                weight,
-                scale * np.abs(along).sum(axis=0) + flat * np.abs(weight),
-            )
-        )
+        terms = edges[facet - 2] * edges[facet - 1]
+        weight = -scale * terms.sum(axis=0)
+        rounding = scale * np.abs(terms).sum(axis=0) + cancelled * np.abs(weight)
+        found.append((dofs[one], dofs[other], weight, rounding))
     return Couplings(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
 
 def _edge_vectors(mesh):
     """The edges 01, 12 and 20 of all triangles, longdouble, shape (3, 2, nt)."""
     if isinstance(mesh, Grid):
-        spacing = np.array(mesh.size, dtype=EXTENDED) / (mesh.nx, mesh.ny)
-        corners = (
-            np.repeat(np.array(mesh.corners).transpose(1, 2, 0), mesh.nx * mesh.ny, axis=2)
-            * spacing[:, None]
-        )
+        size = np.array(mesh.size, dtype=EXTENDED)
+        spacing = size / (mesh.nx, mesh.ny)
+        cell = np.array(mesh.corners).transpose(1, 2, 0)
+        cells = np.repeat(cell, mesh.nx * mesh.ny, axis=2)
+        corners = cells * spacing[:, None]
     else:
-        corners = mesh.p.astype(EXTENDED)[:, mesh.t].transpose(1, 0, 2)
+        points = mesh.p.astype(EXTENDED)
+        corners = points[:, mesh.t].transpose(1, 0, 2)
     return np.roll(corners, -1, axis=0) - corners
 
 
 def extended_stiffness(mesh, element, coefficient=None):
-    """The stiffness matrix of `couplings`, scipy.sparse.csr_array of longdouble, shape (ndof,
-    ndof).
+    """The stiffness matrix of `couplings`.
+
+    Parameters
+    ----------
+    mesh, element, coefficient
+        See `couplings`.
+
+    Returns
+    -------
+    scipy.sparse.csr_array of longdouble, shape (ndof, ndof)
+        Unit of the coefficient.
+
+    Examples
+    --------
+    The five-point stencil of the vertex in the middle, and of the corner below it on the left:
+
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> extended_stiffness(mesh, "P1").toarray()[[4, 0]].astype(float) + 0.0
+    array([[ 0. , -1. ,  0. , -1. ,  4. , -1. ,  0. , -1. ,  0. ],
+           [ 1. , -0.5,  0. , -0.5,  0. ,  0. ,  0. ,  0. ,  0. ]])
     """
     from scipy.sparse import coo_array
 
     first, second, weight, _ = couplings(mesh, element, coefficient)
     size = find_element(element).size(mesh)
-    rows, columns = (
-        np.concatenate([first, second] * 2),
-        np.concatenate([second, first, first, second]),
-    )
-    return coo_array(
-        (np.concatenate([-weight, -weight, weight, weight]), (rows, columns)), shape=(size, size)
-    ).tocsr()
+    entries = np.concatenate([-weight, -weight, weight, weight])
+    rows = np.concatenate([first, second, first, second])
+    columns = np.concatenate([second, first, first, second])
+    return coo_array((entries, (rows, columns)), shape=(size, size)).tocsr()

@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.fem.elements import ELEMENTS
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import Problem, discretize_on
-from signorini.scene.statement import ProblemStatement
-from signorini.studies.stability.bodies import BOUNDARIES, FAMILIES, one_of
+from signorini.generated.bodies import BOUNDARIES, FAMILIES, one_of
+from signorini.generated.statements import statement
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,49 +51,46 @@ def instance(family, load, element, seed):
 
     Examples
     --------
-    >>> instance("delaunay", "white", "CR", 0).problem.b.size == instance("delaunay", "smooth", "CR", 0).problem.b.size
+    >>> white, smooth = (instance("delaunay", load, "CR", 0) for load in ("white", "smooth"))
+    >>> white.problem.b.size == smooth.problem.b.size
     True
     """
     key = [list(FAMILIES).index(family), seed]
-    labels = BOUNDARIES[seed % len(BOUNDARIES)] if load != "biactive" else BOUNDARIES[0]
+    labels = BOUNDARIES[0] if load == "biactive" else BOUNDARIES[seed % len(BOUNDARIES)]
     body = FAMILIES[family](np.random.default_rng(key), labels)
     mesh, coefficient = body if isinstance(body, tuple) else (body, 1)
-    height = float(np.ptp(mesh.p[1]) / np.ptp(mesh.p[0]))
+    aspect = float(np.ptp(mesh.p[1]) / np.ptp(mesh.p[0]))
     rng = np.random.default_rng([*key, list(LOADS).index(load), list(ELEMENTS).index(element)])
-    return Instance(
-        family, load, element, seed, height, LOADS[load](rng, mesh, element, coefficient)
-    )
+    problem = LOADS[load](rng, mesh, element, coefficient)
+    return Instance(family, load, element, seed, aspect, problem)
 
 
 # Kinds of load: (rng, mesh, element, coefficient) to a problem.
 
 
+def _problem(mesh, element, coefficient, **data):
+    told = statement(data | {"coefficient": coefficient}, quadrature="midpoints")
+    return discretize_on(mesh, element, told)
+
+
 def _white(rng, mesh, element, coefficient):
     """Independent normal numbers as load."""
-    problem = discretize_on(mesh, element, _statement({"coefficient": coefficient}))
+    problem = _problem(mesh, element, coefficient)
     return _with_obstacle(rng, replace(problem, b=rng.standard_normal(problem.b.size)))
 
 
 def _smooth(rng, mesh, element, coefficient):
     """Waves as load, flux and Dirichlet values."""
     height = float(np.ptp(mesh.p[1]))
-    data = {
-        "f": wave(rng, height),
-        "g": wave(rng, height),
-        "dirichlet": f"{height**2!r}*({wave(rng, height)})",
-    }
-    data |= {
-        "obstacle": -1e6,
-        "coefficient": coefficient,
-    }  # below the Dirichlet values; the one asked for comes next
-    return _with_obstacle(rng, discretize_on(mesh, element, _statement(data)))
+    data = {name: wave(rng, height) for name in ("f", "g")}
+    data["dirichlet"] = f"{height**2!r}*({wave(rng, height)})"
+    # An obstacle below the Dirichlet values; the one asked for comes next.
+    return _with_obstacle(rng, _problem(mesh, element, coefficient, obstacle=-1e6, **data))
 
 
 def _degenerate(rng, mesh, element, coefficient):
-    """The solution is chosen, with neither gap nor force at three tenths or nine tenths of the
-    contact unknowns.
-    """
-    problem = discretize_on(mesh, element, _statement({"coefficient": coefficient}))
+    """The solution is chosen, with neither gap nor force at three or nine tenths of the dofs."""
+    problem = _problem(mesh, element, coefficient)
     c, biactive = problem.contact, rng.random(problem.contact.size) < rng.choice([0.3, 0.9])
     u = rng.standard_normal(problem.b.size)
     force = np.where(u[c] > 0, 0.0, rng.uniform(0, 1, c.size)) * problem.A.diagonal()[c]
@@ -108,23 +104,21 @@ def _degenerate(rng, mesh, element, coefficient):
 
 
 def _biactive(rng, mesh, element, coefficient):
-    """No gap and no force on the whole contact part, or on a middle piece of it, for the exact
-    solution.
+    """No gap and no force on the whole contact part, or on a middle piece of it.
 
-    With a coefficient, for the discrete solution: the obstacle is the solution without contact.
+    So it is for the exact solution; with a coefficient, for the discrete one: the obstacle is the
+    solution without contact.
     """
     height = float(np.ptp(mesh.p[1]))
     if coefficient != 1:
-        problem = discretize_on(mesh, element, _statement({"f": 1, "coefficient": coefficient}))
+        problem = _problem(mesh, element, coefficient, f=1)
         return replace(problem, lower=_without_contact(problem)[problem.contact])
     if height == 1.0 and rng.random() < 0.5:
         left, right = np.sort(rng.uniform(0.1, 0.9, 2))
         truth = {"family": "biactive", "parameters": {"left": float(left), "right": float(right)}}
-        return discretize_on(mesh, element, _statement(None, truth))
+        return discretize_on(mesh, element, statement(truth=truth, quadrature="midpoints"))
     c = float(10.0 ** rng.uniform(-3, 3))
-    return discretize_on(
-        mesh, element, _statement({"f": repr(c), "obstacle": repr(c * height**2 / 2)})
-    )
+    return _problem(mesh, element, 1, f=repr(c), obstacle=repr(c * height**2 / 2))
 
 
 def _tiny(rng, mesh, element, coefficient):
@@ -136,15 +130,15 @@ def _huge(rng, mesh, element, coefficient):
 
 
 def _constant(rng, mesh, element, coefficient):
-    """The smooth load's problem with a constant of up to 1e12 times its size added to obstacle and
-    Dirichlet values.
+    """The smooth load's problem, obstacle and Dirichlet values raised by a constant.
+
+    It is up to 1e12 times the size of these.
     """
     problem = _smooth(rng, mesh, element, coefficient)
     size = np.max(np.abs(np.concatenate([problem.lower, problem.fixed_values])))
     constant = one_of(rng, (-1.0, 1.0)) * 10.0 ** rng.uniform(0, 12) * size
-    return replace(
-        problem, lower=problem.lower + constant, fixed_values=problem.fixed_values + constant
-    )
+    raised = {name: getattr(problem, name) + constant for name in ("lower", "fixed_values")}
+    return replace(problem, **raised)
 
 
 LOADS = {
@@ -159,40 +153,35 @@ LOADS = {
 
 
 def wave(rng, height=1.0):
-    """A formula: a constant and two plane waves, of a few periods over a rectangle of width 1."""
+    """A constant and two plane waves, of a few periods over a rectangle of width 1.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    height : float, optional
+        Of the rectangle.
+
+    Returns
+    -------
+    str
+        A formula.
+    """
     terms = [f"{rng.normal():.3f}"]
     for _ in range(2):
-        a, k, l, phase = (
-            rng.normal(),
-            rng.uniform(-9, 9),
-            rng.uniform(-9, 9) / height,
-            rng.uniform(0, 6),
-        )
+        a, k, l = rng.normal(), rng.uniform(-9, 9), rng.uniform(-9, 9) / height
+        phase = rng.uniform(0, 6)
         terms.append(f"({a:.3f})*sin(({k:.3f})*x + ({l:.6g})*y + {phase:.3f})")
     return " + ".join(terms)
-
-
-def _statement(data, truth=None):
-    zero = {"f": 0, "g": 0, "dirichlet": 0, "obstacle": 0}
-    mapping = {
-        "domain": {},
-        "boundary": {},
-        "data": {} if truth else zero | data,
-        "load_quadrature": "midpoints",
-    }
-    return ProblemStatement.from_mapping(mapping | ({"truth": truth} if truth else {}))
 
 
 def _with_obstacle(rng, problem):
     """An obstacle of the size of the solution without contact: none, a wave, or normal numbers."""
     u = _without_contact(problem)
     x, _ = find_element(problem.element).nodes(problem.mesh, problem.contact)
-    shapes = (
-        np.zeros(x.size),
-        np.sin(rng.uniform(1, 20) * x + rng.uniform(0, 6)),
-        rng.standard_normal(x.size),
-    )
-    return replace(problem, lower=rng.uniform(0.1, 1.0) * np.abs(u).max() * shapes[rng.integers(3)])
+    sine = np.sin(rng.uniform(1, 20) * x + rng.uniform(0, 6))
+    shapes = (np.zeros(x.size), sine, rng.standard_normal(x.size))
+    size = rng.uniform(0.1, 1.0) * np.abs(u).max()
+    return replace(problem, lower=size * one_of(rng, shapes))
 
 
 def _without_contact(problem):

@@ -1,0 +1,151 @@
+"""What the judge found, and how a solution in double precision compares with it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.judge.elimination import EXTENDED
+from signorini.solvers.found import LEAST_FORCE
+
+EPS = float(np.finfo(EXTENDED).eps)
+DOUBLE = float(np.finfo(float).eps)
+SAFETY = 4.0  # between the largest of a few samples of round-off and a bound
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """A solution in extended precision, and what it is sure of.
+
+    Parameters
+    ----------
+    shift : longdouble
+        A constant, one of the data, taken off u: digits are those of the variation.
+    displacement : ndarray of longdouble, shape (ndof,)
+        u - shift.
+    multiplier : ndarray of longdouble, shape (nc,)
+        Contact force on each contact degree of freedom.
+    active : ndarray of bool, shape (nc,)
+        Where the constraint binds.
+    margin : ndarray, shape (nc,)
+        Gap or force of each contact degree of freedom in units of its own error bound; its sign is
+        sure above 1.
+    variation : longdouble
+        max u - min u, or max |u| where u is constant.
+    acting : longdouble
+        The largest sum of |a_ij (u_i - u_j)| and |b_i| of a contact row.
+    error : float
+        Error bound of the judge's own, relative to the variation.
+    force_error : longdouble
+        The same of the contact forces, in their unit.
+    limit : float
+        What rounding of all terms of the forces to double precision does to u, and of u itself,
+        relative to the variation. No algorithm that is told no more than the entries of the matrix
+        can be expected to do better.
+    stored : float
+        What rounding of u itself to double precision does, relative to the variation.
+    """
+
+    shift: np.longdouble
+    displacement: np.ndarray
+    multiplier: np.ndarray
+    active: np.ndarray
+    margin: np.ndarray
+    variation: np.longdouble
+    acting: np.longdouble
+    error: float
+    force_error: np.longdouble
+    limit: float
+    stored: float
+
+    @property
+    def u(self):
+        """The solution, longdouble, shape (ndof,)."""
+        return self.shift + self.displacement
+
+    def distance(self, u):
+        """Largest error of u, relative to the variation."""
+        return ratio(largest((u - self.shift) - self.displacement), self.variation)
+
+    def force(self, decided):
+        """What errors of contact forces are relative to.
+
+        The largest force at the dofs `decided` (ndarray of bool, shape (nc,)), or else `acting`.
+        """
+        size = np.max(self.multiplier, where=decided, initial=0)
+        return max(size, LEAST_FORCE * self.acting) if size else self.acting
+
+    def rounding(self, decided):
+        """One rounding of the terms of contact forces to double precision, relative to `force`."""
+        return DOUBLE * ratio(self.acting, self.force(decided))
+
+    def multiplier_limit(self, decided):
+        """What rounding all terms to double does to contact forces, relative to `force`."""
+        return DOUBLE / EPS / SAFETY * ratio(self.force_error, self.force(decided))
+
+    def multiplier_distance(self, multiplier, decided):
+        """Largest error of contact forces.
+
+        Parameters
+        ----------
+        multiplier : ndarray, shape (nc,)
+        decided : ndarray of bool, shape (nc,)
+
+        Returns
+        -------
+        float
+            Relative to `force`.
+        """
+        return ratio(largest(multiplier - self.multiplier), self.force(decided))
+
+    def wrong_side(self, active, undecided):
+        """Count the contact dofs on whose sides a solution and the judge are sure, and differ.
+
+        Parameters
+        ----------
+        active, undecided : ndarray of bool, shape (nc,)
+            Of the solution.
+
+        Returns
+        -------
+        int
+        """
+        return int(np.sum((active != self.active) & (self.margin > 1) & ~undecided))
+
+    def needless(self, undecided, factor):
+        """Count the dofs undecided though the sign is plain in double precision.
+
+        Parameters
+        ----------
+        undecided : ndarray of bool, shape (nc,)
+        factor : float
+            By which gap or force exceed their error in double precision.
+
+        Returns
+        -------
+        int
+        """
+        return int(np.sum(undecided & (self.margin > factor * DOUBLE / EPS)))
+
+
+def largest(values):
+    """The largest absolute value, 0 of nothing; longdouble."""
+    return np.max(np.abs(values), initial=EXTENDED(0))
+
+
+def ratio(value, size):
+    """A quotient that is 0 for a value of 0, whatever the size.
+
+    Parameters
+    ----------
+    value, size : longdouble
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> ratio(0, 0), ratio(1, 4)
+    (0.0, 0.25)
+    """
+    return float(value / size) if value else 0.0

@@ -1,0 +1,108 @@
+"""A problem solved by every route that applies; studies and tests compare them."""
+
+import time
+from dataclasses import dataclass
+
+from signorini.exceptions import SolverError
+from signorini.solvers.select import METHODS, solve
+from signorini.solvers.solution import Solution
+
+GENERAL = next(method for method in METHODS if method != "fourier")  # it takes any mesh
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """What a route made of a problem.
+
+    Parameters
+    ----------
+    method : str
+    solution : Solution or None
+    error : SolverError or None
+        Why there is no solution.
+    seconds : float
+    """
+
+    method: str
+    solution: Solution | None
+    error: SolverError | None
+    seconds: float
+
+    @property
+    def applies(self):
+        """Whether the route takes such a problem at all."""
+        return self.error is None or "does not apply" not in str(self.error)
+
+    def result(self):
+        """The solution.
+
+        Raises
+        ------
+        SolverError
+            Where there is none.
+        """
+        if self.error:
+            raise self.error
+        return self.solution
+
+
+def attempt(problem, method):
+    """Solve a problem by a route, or keep the reason why it is refused.
+
+    Parameters
+    ----------
+    problem : Problem
+    method : str
+        Of `METHODS`, or ``auto``.
+
+    Returns
+    -------
+    Attempt
+    """
+    solution = refusal = None
+    start = time.perf_counter()
+    try:
+        solution = solve(problem, method)
+    except SolverError as error:
+        refusal = error
+    return Attempt(method, solution, refusal, time.perf_counter() - start)
+
+
+def attempts(problem, methods=METHODS):
+    """Try routes one after the other.
+
+    Parameters
+    ----------
+    problem : Problem
+    methods : sequence of str, optional
+
+    Yields
+    ------
+    Attempt
+        Of every route that applies.
+    """
+    for method in methods:
+        found = attempt(problem, method)
+        if found.applies:
+            yield found
+
+
+def solutions(problem):
+    """Solve a problem by every route that applies.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Yields
+    ------
+    method : str
+    solution : Solution
+
+    Raises
+    ------
+    SolverError
+        If one of them refuses the problem.
+    """
+    for found in attempts(problem):
+        yield found.method, found.result()

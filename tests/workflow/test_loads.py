@@ -58,7 +58,7 @@ def _composed(call):
 
 def test_rivals_are_inputs_of_their_study(declared):
     names = ("active_set", "bounded", "quadratic")
-    adapters = {f"src/signorini/studies/rivals/{name}.py" for name in names}
+    adapters = {f"src/signorini/rivals/{name}.py" for name in names}
     assert adapters <= declared["stability success"]
     assert adapters <= declared["benchmark rival"]
     assert not adapters & declared["benchmark point"]

@@ -64,7 +64,7 @@ def point_before(wildcards):
 
 
 def rival_files(wildcards):
-    from signorini.studies.rivals import RIVALS
+    from signorini.rivals import RIVALS
 
     return [
         f"{BENCHMARK}/rivals/{name}/{element}/{rival}.csv"

@@ -1,7 +1,7 @@
 # `snakemake sensitivity`: the paper's table under all combinations of the options that the paper leaves open. Every job
 # solves what one diagonal needs; the rest is arithmetic on its errors.
 
-from signorini.studies.sensitivity.options import DIAGONALS
+from signorini.open_choices.options import DIAGONALS
 
 SENSITIVITY = f"{STUDIES}/sensitivity"
 

@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from signorini.open_choices.options import OPTIONS, PAPER, count_solves
 from signorini.report.document import render
 from signorini.report.tables import ELEMENTS
 from signorini.studies.sensitivity.combinations import (
@@ -12,7 +13,6 @@ from signorini.studies.sensitivity.combinations import (
     smaller,
     where,
 )
-from signorini.studies.sensitivity.options import OPTIONS, PAPER, count_solves
 
 PAGE = "studies/sensitivity/page.md.j2"
 _SLOPES = [f"slope_{norm}_{element}" for norm, element in SERIES]

@@ -35,7 +35,7 @@ import jinja2
 
 from signorini.report import quantities
 from signorini.report.macros import ESCAPES
-from signorini.report.tables import percent
+from signorini.report.rounding import percent
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from builders import DATA, delaunay, grid, statement
+from signorini import rivals
 from signorini.fem.problem import discretize_on
 from signorini.solvers import METHODS
-from signorini import rivals
 from signorini.studies.benchmark import comparison
 from signorini.studies.benchmark.columns import RIVAL
 from signorini.studies.benchmark.comparison import compare, rows_apart

@@ -1,7 +1,7 @@
-"""Whether a level fits this machine, judged before any work on it, from its domain, element and
-route.
+"""Whether a level fits this machine, judged before any work on it.
 
-Meshes and routes judge for themselves too, but not before all that they start from has been made.
+All that is known of a level then is its domain, element and route. Meshes and routes judge for
+themselves too, but not before all that they start from has been made.
 """
 
 from signorini.exceptions import MeshError
@@ -33,24 +33,26 @@ def check_level(statement, element, n, method, domain=None):
     route = "multigrid" if method == "auto" else method
     if fits(triangles, ROUTES[route][element]):
         return
-    others = [
+    applicable = [
         other for other in ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
     ]
-    held = [other for other in others if fits(triangles, ROUTES[other][element])]
+    fitting = [other for other in applicable if fits(triangles, ROUTES[other][element])]
     if method == "auto":
-        if held:
+        if fitting:
             return
-        route = others[0]
-    remedy = f"set solver.method to {' or '.join(held)}, or " if held else ""
+        route = applicable[0]
+    missing = shortage(triangles, ROUTES[route][element])
+    remedy = f"set solver.method to {' or '.join(fitting)}, or " if fitting else ""
     raise MeshError(
-        f"levels: n = {n} for {element} by solver.method {method} {shortage(triangles, ROUTES[route][element])}; "
+        f"levels: n = {n} for {element} by solver.method {method} {missing}; "
         f"{remedy}choose smaller levels"
     )
 
 
 def _count_roughly(domain, n):
-    """Triangles of level n of a section ``domain``: twice its area in cells, which Netgen exceeds
-    by an eighth.
+    """Triangles of level n of a section ``domain``: twice its area in cells.
+
+    Netgen makes an eighth more.
     """
     kind = domain.get("kind", "rectangle")
     if kind == "mesh":
@@ -68,13 +70,12 @@ def _area(corners):
 
 
 def _fourier_applies(statement, element, n):
-    """Whether the fourier route solves this level: asked of a problem without data, on a grid that
-    costs nothing.
+    """Whether the fourier route solves this level.
+
+    It is asked of a problem without data, on a grid, which costs nothing.
     """
-    if (
-        statement.domain.get("kind", "rectangle") != "rectangle"
-        or not statement.triangulations.uniform
-    ):
+    is_rectangle = statement.domain.get("kind", "rectangle") == "rectangle"
+    if not is_rectangle or not statement.triangulations.uniform:
         return False
     if getattr(statement.data.coefficient, "constant", None) != 1.0:
         return False
@@ -83,5 +84,7 @@ def _fourier_applies(statement, element, n):
     from signorini.fem.problem import Problem
     from signorini.solvers.fourier import obstruction
 
-    grid, values, dofs = statement.triangulations.level(n), np.zeros(0), np.zeros(0, dtype=int)
-    return obstruction(Problem(element, grid, values, dofs, values, dofs, values)) is None
+    grid = statement.triangulations.level(n)
+    values, dofs = np.zeros(0), np.zeros(0, dtype=int)
+    problem = Problem(element, grid, values, dofs, values, dofs, values)
+    return obstruction(problem) is None

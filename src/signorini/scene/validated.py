@@ -1,5 +1,6 @@
-"""Validated scenes as files, ``scene.json``: what the commands of a workflow read instead of
-validating the scene's own file again.
+"""Validated scenes as files, ``scene.json``.
+
+The commands of a workflow read them, and do not validate the scene's own file again.
 """
 
 from pathlib import Path

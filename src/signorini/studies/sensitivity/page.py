@@ -2,9 +2,9 @@
 
 import pandas as pd
 
+from signorini.fem.element_facts import ABBREVIATIONS
 from signorini.open_choices.options import OPTIONS, PAPER, count_solves
 from signorini.report.document import render
-from signorini.report.tables import ELEMENTS
 from signorini.studies.sensitivity.combinations import (
     NORMS,
     SERIES,
@@ -44,7 +44,7 @@ def page(layout, rows, errors, reference_n, quick=False):
         "levels": levels,
         "reference_n": reference_n,
         "quick": quick,
-        "elements": ELEMENTS,
+        "elements": ABBREVIATIONS,
         "options": OPTIONS,
         "paper": PAPER,
         "solves": count_solves(errors),

@@ -14,7 +14,7 @@ from signorini.commands.sources import sources
 MODULES = sorted((ROOT / "src/signorini").rglob("*.py"))
 # These compose names, of commands and for users: `signorini.solve`.
 COMPOSING = [ROOT / "src/signorini" / name for name in ("__init__.py", "commands/program.py")]
-UNUSED = {"new", "scenes", "show"}  # by the workflow
+UNUSED = {"check", "new", "scenes", "show"}  # by the workflow
 
 
 @pytest.fixture(scope="module")

@@ -52,7 +52,7 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
     own = [command for command in FILES if command.startswith("sensitivity ")]
-    assert missing == {command: [] for command in [*own, "check"]}
+    assert missing == {command: [] for command in own}
 
 
 def test_the_full_study_is_another(built):

@@ -38,7 +38,7 @@ def suite(built):
 def test_what_a_job_loads_is_among_its_inputs(built, spied):
     missing = undeclared(built, spied, *QUICK)
     own = [command for command in FILES if command.startswith("stability ")]
-    assert missing == {command: [] for command in [*own, "check"]}
+    assert missing == {command: [] for command in own}
     found = rooms_of(spied)["stability success"]
     assert "signorini.rivals.bounded" in found  # SciPy's, always there
 

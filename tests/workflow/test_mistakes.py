@@ -42,6 +42,7 @@ CONFIGURATIONS = {
 }
 
 # Mistake -> what is replaced in the scene, by what, and what the line says.
+VALIDATED = "small/scene.json"  # which is written before any job
 SCENES = {
     "unknown field": ("norms:", "norm:", "small.yaml: norm: unknown key; did you mean norms?"),
     "unknown element": (

@@ -36,7 +36,8 @@ def test_files(built):
     }
     pages = {"sensitivity.csv", "sensitivity_ratios.csv", "sensitivity.tex", "sensitivity.md"}
     diagonals = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
-    assert found == pages | pictures | {f"errors/{diagonal}.csv" for diagonal in diagonals}
+    errors = {f"errors/{diagonal}.csv" for diagonal in diagonals}
+    assert found == pages | pictures | errors | {"paper/scene.json"}
 
 
 def test_a_quick_page_says_so(built):

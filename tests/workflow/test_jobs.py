@@ -41,7 +41,7 @@ def test_nothing_to_do(built_paper):
 
 
 def test_a_copy_with_new_time_stamps_has_nothing_to_do(small):
-    """Snakemake compares the contents of source files, so that a checkout or a copy starts nothing."""
+    """Snakemake compares the contents of source files, so that a copy starts nothing."""
     for path in [*(small / "src").rglob("*.py"), small / "config/scenes/small.yaml"]:
         os.utime(path)
     assert small.jobs() == {}

@@ -1,1 +1,1 @@
-"""The choices that the paper leaves open: the options of each, and what another one does to its numbers."""
+"""The choices that the paper leaves open: their options, and what they do to its numbers."""

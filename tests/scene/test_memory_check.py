@@ -11,6 +11,7 @@ import pytest
 from builders import statement
 from signorini import memory
 from signorini.exceptions import MeshError
+from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.mesh.domain import Rectangle, Refined, make_domain
 from signorini.scene.memory_check import check_level
 from signorini.scene.statement import ProblemStatement
@@ -125,7 +126,7 @@ def test_a_hole_is_no_part_of_the_area(monkeypatch):
         for one in (plain, pierced, reversed_)
     ]
     assert limits == pytest.approx(
-        [2 * 64**2 * area * memory.DIRECT["P1"] for area in (4, 3.875, 4)]
+        [2 * 64**2 * area * ELEMENT_FACTS["P1"].direct_bytes for area in (4, 3.875, 4)]
     )
 
 

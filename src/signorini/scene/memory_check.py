@@ -5,7 +5,10 @@ themselves too, but not before all that they start from has been made.
 """
 
 from signorini.exceptions import MeshError
-from signorini.memory import ROUTES, fits, shortage
+from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.memory import fits, shortage
+
+_ROUTES = ("fourier", "multigrid", "direct")  # the frugal first
 
 
 def check_level(statement, element, n, method, domain=None):
@@ -31,17 +34,18 @@ def check_level(statement, element, n, method, domain=None):
     """
     triangles = domain.count_triangles(n) if domain else _count_roughly(statement.domain, n)
     route = "multigrid" if method == "auto" else method
-    if fits(triangles, ROUTES[route][element]):
+    bytes_by = ELEMENT_FACTS[element].bytes_by
+    if fits(triangles, bytes_by(route)):
         return
     applicable = [
-        other for other in ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
+        other for other in _ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
     ]
-    fitting = [other for other in applicable if fits(triangles, ROUTES[other][element])]
+    fitting = [other for other in applicable if fits(triangles, bytes_by(other))]
     if method == "auto":
         if fitting:
             return
         route = applicable[0]
-    missing = shortage(triangles, ROUTES[route][element])
+    missing = shortage(triangles, bytes_by(route))
     remedy = f"set solver.method to {' or '.join(fitting)}, or " if fitting else ""
     raise MeshError(
         f"levels: n = {n} for {element} by solver.method {method} {missing}; "

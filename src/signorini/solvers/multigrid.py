@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.memory import MULTIGRID, check_memory
+from signorini.memory import check_memory
 from signorini.solvers.found import NO_DIGIT, Errors, better, to_close, wrong_signs
 from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
 from signorini.solvers.search import Search
@@ -30,7 +30,10 @@ def obstruction(problem):
     """Say why the route does not apply to a problem, or None where it does."""
     most, stretch = _STRETCH[problem.element], problem.mesh.stretch
     if stretch > most:
-        return f"there are cells {stretch:.0f} times as long as high, and {problem.element} takes at most {most:g}"
+        return (
+            f"there are cells {stretch:.0f} times as long as high, "
+            f"and {problem.element} takes at most {most:g}"
+        )
     return None
 
 
@@ -49,7 +52,7 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     """
     check_memory(
         problem.mesh.number_of_triangles,
-        MULTIGRID[problem.element],
+        problem.finite_element.facts.multigrid_bytes,
         "a mesh for solver.method multigrid",
     )
     levels = build_hierarchy(problem)

@@ -7,7 +7,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
-from signorini.memory import DIRECT, fits
+from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.found import NO_DIGIT, Found, size_of
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
@@ -24,7 +24,8 @@ METHODS = {
 _MANY = (
     1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 )
-_FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
+# Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
+_FEW = 20_000
 _ASKED = "asked for"
 _NEARLY_CONSTANT = (
     2.0**-6
@@ -158,7 +159,9 @@ def _find(problem, method, reason, guess):
     try:
         return _by_route(problem, method, guess), method, reason
     except SolverError as error:
-        larger = not fits(problem.mesh.number_of_triangles, DIRECT[problem.element])
+        larger = not fits(
+            problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
+        )
         if method != "multigrid" or reason == _ASKED or larger:
             raise
         return _by_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
@@ -205,11 +208,12 @@ def _choose(problem, method):
         return "multigrid", f"{why_not}, but refined"
     if is_regular(problem.mesh) and problem.contact.size > _MANY:
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
-    if fits(problem.mesh.number_of_triangles, DIRECT[problem.element]):
+    if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
         return "direct", f"{why_not}, and not refined or of stretched cells"
     if obstacle := _obstruction("multigrid", problem):
         raise SolverError(
-            f"domain: too large for a factorisation, and {obstacle}; stretch cells less, or use fewer"
+            f"domain: too large for a factorisation, and {obstacle}; "
+            "stretch cells less, or use fewer"
         )
     return "multigrid", f"{why_not}, and too large for a factorisation"
 
@@ -236,7 +240,7 @@ def _accuracy(found, constant):
 
 
 def _with_constant(problem, deviation, constant, active):
-    """u itself, the given values taken over as they are; the same array where there is no constant."""
+    """u itself, given values taken over as they are; the same array where there is no constant."""
     if not constant:
         return deviation
     u = deviation + constant

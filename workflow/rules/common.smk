@@ -85,9 +85,13 @@ def check_results():
             )
 
 
-@cache
 def library(command):
-    """The files of the library that a command can load: an edit of any of them runs its jobs again."""
+    """An input: the files of the library that a command can load. An edit of any of them runs its jobs again."""
+    return lambda wildcards: library_files(command)
+
+
+@cache
+def library_files(command):
     return [os.path.relpath(path, PROJECT) for path in sources(command)]
 
 
@@ -100,7 +104,7 @@ def content(command, *others):
 
     def found(wildcards):
         named = [other(wildcards) if callable(other) else [other] for other in others]
-        digests = map(file_digest, sum(named, library(command)))
+        digests = map(file_digest, sum(named, library_files(command)))
         return hashlib.sha256("".join(digests).encode()).hexdigest()
 
     return found

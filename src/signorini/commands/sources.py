@@ -17,6 +17,8 @@ PACKAGE = "signorini"
 _ROOT = Path(__file__).parents[1]
 # Jobs read the validated scene: no command but those named here reads a scene's own file.
 _READER, _READERS = f"{PACKAGE}.scene.read", ("check", "scenes", "new")
+# A text that is the name of a module, alone or before a colon.
+_MODULE = re.compile(rf'"({PACKAGE}(?:\.\w+)+)[":]')
 # What every command passes through.
 _PROGRAM = (f"{PACKAGE}.__main__", f"{PACKAGE}.commands.program")
 
@@ -72,15 +74,21 @@ def _named(path):
     templates = {_ROOT / name for name in re.findall(r'"([\w/]+\.\w+\.j2)"', text)}
     if path.suffix == ".j2":
         return templates
-    names = set()
-    for node in ast.walk(ast.parse(text)):
+    names = set(_MODULE.findall(text))
+    for node in _statements(ast.parse(text).body):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            names.add(node.value.partition(":")[0])
     return templates | {file for name in names for file in _executed(name)}
+
+
+def _statements(body):
+    """All statements, those within others included; expressions hold no import."""
+    for node in body:
+        yield node
+        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+            yield from _statements(getattr(node, part, ()))
 
 
 @cache

@@ -17,6 +17,7 @@ from signorini.exceptions import MeshError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.residual import residual, row_sums
 from signorini.fem.stiffness import assemble_stiffness
+from signorini.solvers.solution import largest
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
 STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
@@ -141,14 +142,17 @@ def _algebraic(A, robust=False):
     if A.shape[0] <= _SMALL:
         return [Level(A, robust=robust)]
     from pyamg import smoothed_aggregation_solver
+    from pyamg.classical.split import RS
     from scipy.sparse import csr_array, csr_matrix
 
     levels, coarse = [], csr_array(A)
     while coarse.shape[0] > _SMALL:
-        splitting, strong = _splitting(coarse)
+        strong = _strong_couplings(coarse)
+        splitting = RS(strong)
         if not 0 < splitting.sum() < splitting.size:
             break
         P = _interpolation(coarse, splitting, strong)
+        del strong  # before the product below needs memory
         if P is None:
             found = smoothed_aggregation_solver(csr_matrix(A), max_coarse=_SMALL).levels
             levels = [Level(csr_array(level.A), csr_array(level.P), robust) for level in found[:-1]]
@@ -159,17 +163,14 @@ def _algebraic(A, robust=False):
     return [*levels, Level(coarse, robust=robust)]
 
 
-def _splitting(A):
-    """Which unknowns are to be coarse, 0 or 1 each, and the strong couplings, CSR.
+def _strong_couplings(A):
+    """The strong couplings of a matrix, CSR.
 
-    Negative couplings alone are strong: across a positive one, u does not vary slowly after
-    smoothing.
+    Negative ones alone are strong: across a positive one, u does not vary slowly after smoothing.
     """
-    from pyamg.classical.split import RS
     from pyamg.strength import classical_strength_of_connection
 
-    strong = classical_strength_of_connection(A, _STRONG, norm="min")
-    return RS(strong), strong
+    return classical_strength_of_connection(A, _STRONG, norm="min")
 
 
 def _interpolation(A, splitting, strong):
@@ -178,18 +179,46 @@ def _interpolation(A, splitting, strong):
     The weights of a row are its strong couplings over their sum and that of the whole row. Where
     positive couplings to held unknowns were left out of the row, its own sum is negative, and both
     together may be nothing.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (n, n)
+    splitting : ndarray of int, shape (n,)
+        Which unknowns are to be coarse, 0 or 1 each.
+    strong : scipy.sparse.csr_array, shape (n, n)
+        Overwritten: there is no room for a copy.
     """
     from pyamg.amg_core import remove_strong_FF_connections
-    from pyamg.classical.interpolate import classical_interpolation
 
     remove_strong_FF_connections(A.shape[0], strong.indptr, strong.indices, strong.data, splitting)
     strong.eliminate_zeros()
-    kept = A.multiply(strong.astype(bool)).tocsr()
-    size = kept.diagonal() - kept.sum(axis=1)
+    strong.data[:] = 1.0
+    strong = strong.multiply(A)
+    size = strong.diagonal() - strong.sum(axis=1)
     if np.any(np.abs(size + A.sum(axis=1)) < _NOTHING * size):
         return None
-    P = classical_interpolation(A, strong, splitting)
-    return None if abs(P).max() > _WILD else P
+    P = _classical_interpolation(A, splitting, strong)
+    P.sort_indices()  # so that sums over a row run in one order, whatever version made it
+    return None if largest(P.data) > _WILD else P
+
+
+def _classical_interpolation(A, splitting, strong):
+    """PyAMG's function of that name, less its copies: `strong` holds the entries of A to use."""
+    from pyamg.amg_core import rs_classical_interpolation_pass1, rs_classical_interpolation_pass2
+    from scipy.sparse import csr_array
+
+    count = A.shape[0]
+    start = np.empty_like(A.indptr)
+    rs_classical_interpolation_pass1(count, strong.indptr, strong.indices, splitting, start)
+    column = np.empty(start[-1], dtype=start.dtype)
+    weight = np.empty(start[-1], dtype=A.dtype)
+    rows = A.indptr, A.indices, A.data
+    strong_rows = strong.indptr, strong.indices, strong.data
+    modified = True  # as `remove_strong_FF_connections` asks for
+    rs_classical_interpolation_pass2(
+        count, *rows, *strong_rows, splitting, start, column, weight, modified
+    )
+    return csr_array((weight, column, start), shape=(count, splitting.sum()))
 
 
 def _means(pairs, count):

@@ -40,6 +40,8 @@ def count_scene(scene, element):
         peak of what Python's allocators gave out during the solve, assembly included where a route
         needs the matrix. What SuperLU allocates by itself is not among them.
     """
+    import pyamg  # noqa: F401 (its modules are no memory of a solve; a coarse one may not load it)
+
     n, problem = _counted_level(scene, element)
     coarse = discretize(scene, element, scene.levels[0])
     rows = []

@@ -81,7 +81,7 @@ def _fourier_applies(statement, element, n):
     import numpy as np
 
     from signorini.fem.problem import Problem
-    from signorini.solvers.fourier import obstruction
+    from signorini.solvers.fourier import why_not
 
     grid, values, dofs = statement.triangulations.level(n), np.zeros(0), np.zeros(0, dtype=int)
-    return obstruction(Problem(element, grid, values, dofs, values, dofs, values)) is None
+    return why_not(Problem(element, grid, values, dofs, values, dofs, values)) is None

@@ -120,7 +120,7 @@ def _place(problem, part):
     """Where a part of the body is, for a message; empty for all of it."""
     if part is None:
         return ""
-    from signorini.fem.elements import element as find_element
+    from signorini.fem.elements import find_element
 
     x, y = find_element(problem.element).nodes(problem.mesh, part[:1])[:, 0]
     return f" of the part of the body with ({x:.6g}, {y:.6g})"

@@ -9,7 +9,7 @@ conditioned where only the inequality, or a weak part of the body, holds it.
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.fem.elements import element as find_element
+from signorini.fem.elements import find_element
 from signorini.fem.residual import EPS
 from signorini.solvers.hierarchy import causes
 from signorini.solvers.solution import largest

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.residual import BELOW, EPS, residual, residual_and_fluxes, rounding_of, row_sums
-from signorini.memory import DIRECT, check_memory
+from signorini.memory import check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.dot import dot
@@ -50,7 +50,9 @@ def solve_direct(problem, guess=None):
     Found
     """
     check_memory(
-        problem.mesh.number_of_triangles, DIRECT[problem.element], "a mesh for solver.method direct"
+        problem.mesh.number_of_triangles,
+        problem.finite_element.facts.direct_bytes,
+        "a mesh for solver.method direct",
     )
     u = np.zeros_like(problem.b)
     u[problem.fixed] = problem.fixed_values

@@ -17,18 +17,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.memory import MULTIGRID, check_memory
+from signorini.memory import check_memory
 from signorini.solvers.found import NO_DIGIT, Errors, better, to_close, wrong_signs
 from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
 from signorini.solvers.search import Search
 from signorini.work import counting
 
-_STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge; measured
 
-
-def obstruction(problem):
+def why_not(problem):
     """Say why the route does not apply to a problem, or None where it does."""
-    most, stretch = _STRETCH[problem.element], problem.mesh.stretch
+    most, stretch = problem.finite_element.facts.multigrid_stretch, problem.mesh.stretch
     if stretch > most:
         return f"there are cells {stretch:.0f} times as long as high, and {problem.element} takes at most {most:g}"
     return None
@@ -49,7 +47,7 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     """
     check_memory(
         problem.mesh.number_of_triangles,
-        MULTIGRID[problem.element],
+        problem.finite_element.facts.multigrid_bytes,
         "a mesh for solver.method multigrid",
     )
     levels = build_hierarchy(problem)

@@ -43,6 +43,3 @@ def find_element(element):
         known = ", ".join(ELEMENTS)
         raise SceneError(f"elements: unknown element {element!r}; known: {known}{hint}")
     return ELEMENTS[element]
-
-
-element = find_element  # the name under which solvers and studies still import it

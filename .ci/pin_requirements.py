@@ -42,7 +42,7 @@ def key(requirement):
 
 
 def installed(requirements):
-    """Name -> (version, requirements) of all that pip installs for them into an empty environment."""
+    """Name -> (version, requirements) of all that pip installs for them."""
     with tempfile.TemporaryDirectory() as folder:
         venv.create(folder, with_pip=True)
         python = Path(folder, "bin", "python")

@@ -42,7 +42,7 @@ def measure(path, element, n, repeats):
 
 
 def run(source, path, element, n, repeats):
-    """Seconds of each step in a process of its own, that uses the version in the folder `source`."""
+    """Seconds of each step, in a process of its own with the version in the folder `source`."""
     command = [sys.executable, __file__, "--child", str(path), element, str(n), str(repeats)]
     environment = os.environ | {"PYTHONPATH": str(source), "OMP_NUM_THREADS": "1"}
     return json.loads(

@@ -60,12 +60,14 @@ def growth(route, element, sizes, repeats):
         found = rows[-1]
         print(
             f"{route:9} {element:3} {n:6} {found['dofs']:10} {found['seconds']:10.4f} "
-            f"{found['bytes'] / found['dofs']:11.1f} {exponent} {found['residual']:9.1e} {found['status']}",
+            f"{found['bytes'] / found['dofs']:11.1f} {exponent} {found['residual']:9.1e} "
+            f"{found['status']}",
             flush=True,
         )
     if len(rows) > 2:
         print(
-            f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: exponent {slope(rows[0], rows[-1]):.3f}",
+            f"{route:9} {element:3} n = {sizes[0]} to {sizes[-1]}: "
+            f"exponent {slope(rows[0], rows[-1]):.3f}",
             flush=True,
         )
 

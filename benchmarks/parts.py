@@ -129,7 +129,8 @@ def report(element, n, repeats):
         spread = f"{statistics.median(values):.1f} ({min(values):.1f} to {max(values):.1f})"
         print(f"| {part} | {spread} | {calls[part] or ''} |")
     print(
-        f"\nOn the finest level: {work.products} products, {work.cycles} cycles, {work.steps} contact sets.\n"
+        f"\nOn the finest level: {work.products} products, {work.cycles} cycles, "
+        f"{work.steps} contact sets.\n"
     )
 
 

@@ -106,7 +106,7 @@ def level_added(project):
 
 
 def meshes_shared(project):
-    """The meshes of all scenes, one for each scene (by what the shared ones cost) and as they are."""
+    """The meshes of all scenes: one for each, by what the shared ones cost, and as they are."""
     (project.folder / "config/scenes/asked.yaml").unlink(missing_ok=True)
     project.clean()
     scenes = len(list((project.folder / "config/scenes").glob("*.yaml")))
@@ -130,7 +130,8 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     repeats = parser.parse_args().repeats
     print(
-        "| skip | scene | jobs without, with | seconds without, with | saved |\n| :--- | :--- | :--- | :--- | ---: |"
+        "| skip | scene | jobs without, with | seconds without, with | saved |\n"
+        "| :--- | :--- | :--- | :--- | ---: |"
     )
     with tempfile.TemporaryDirectory() as folder:
         project = Copy(folder)

@@ -339,7 +339,8 @@ def main():
         return measure(*arguments.child, arguments.n)
     found = collect(arguments.n, arguments.repeats, arguments.slow_repeats)
     print(
-        f"| h = 1/{arguments.n} | element | s, median (range) | baseline / this | peak MB | result |"
+        f"| h = 1/{arguments.n} | element | s, median (range) | "
+        "baseline / this | peak MB | result |"
     )
     print("| :--- | :--- | ---: | ---: | ---: | ---: |")
     for (run, element), rows in found.items():

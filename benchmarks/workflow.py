@@ -60,7 +60,8 @@ def main():
         ("ratio", ratios),
     ):
         print(
-            f"{name:18} median {statistics.median(values):6.2f}   range {min(values):.2f} to {max(values):.2f}"
+            f"{name:18} median {statistics.median(values):6.2f}   "
+            f"range {min(values):.2f} to {max(values):.2f}"
         )
 
 

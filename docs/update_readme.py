@@ -47,7 +47,8 @@ def durations(measured):
     """What the commands of README.md take, in seconds by name, as Markdown."""
     paper, test, install = (about(measured[name]) for name in TIMED)
     return (
-        f"On two cores, as continuous integration measured: `make paper` {paper}, `make test` {test}, and before them\n"
+        f"On two cores, as continuous integration measured: `make paper` {paper}, "
+        f"`make test` {test}, and before them\n"
         f"the installation {install}.\n"
     )
 

@@ -13,7 +13,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 
 def pytest_collection_modifyitems(config, items):
-    """Begin with the files of the workflow, which take longest, so that the workers end together."""
+    """Begin with the files of the workflow, which take longest: the workers then end together."""
     if hasattr(config, "workerinput"):
         items.sort(key=lambda item: "workflow" not in item.path.parts)
 

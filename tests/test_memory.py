@@ -67,7 +67,8 @@ def test_the_prediction_is_made_for_every_kind_of_mesh(
         (
             2**9,
             2e5,
-            "has 512 triangles and needs at least 0.00056 GB of memory, but there are 0.0002 GB here",
+            "has 512 triangles and needs at least 0.00056 GB of memory, "
+            "but there are 0.0002 GB here",
         ),
         (
             2**31,

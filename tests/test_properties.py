@@ -190,10 +190,13 @@ def gmsh(p, t, bottom):
     cells = lines + [f"2 2 5 1 {a + 1} {b + 1} {c + 1}" for a, b, c in t]
     return "\n".join([
         "$MeshFormat", "2.2 0 8", "$EndMeshFormat",
-        "$PhysicalNames", "5", *(f'{1 + (tag == 5)} {tag} "{name}"' for name, tag in NUMBERS.items()),
+        "$PhysicalNames", "5",
+        *(f'{1 + (tag == 5)} {tag} "{name}"' for name, tag in NUMBERS.items()),
         "$EndPhysicalNames",
-        "$Nodes", str(len(p)), *(f"{k + 1} {x!r} {y!r} 0" for k, (x, y) in enumerate(p)), "$EndNodes",
-        "$Elements", str(len(cells)), *(f"{k + 1} {cell}" for k, cell in enumerate(cells)), "$EndElements", "",
+        "$Nodes", str(len(p)),
+        *(f"{k + 1} {x!r} {y!r} 0" for k, (x, y) in enumerate(p)), "$EndNodes",
+        "$Elements", str(len(cells)),
+        *(f"{k + 1} {cell}" for k, cell in enumerate(cells)), "$EndElements", "",
     ])  # fmt: skip
 
 

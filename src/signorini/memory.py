@@ -3,20 +3,10 @@
 import os
 
 from signorini.exceptions import MeshError
-from signorini.fem.element_facts import ELEMENT_FACTS
 
 # Bytes per triangle of a level, the least measured on 2**15 to 2**23 triangles: of a grid with its
 # load, discretised and solved by the fourier route, and of any other mesh, discretised.
 GRID, MESH = 30, 85
-# The same by route and element, the frugal route first. What the two other routes need is known to
-# the elements.
-DIRECT = {name: facts.direct_bytes for name, facts in ELEMENT_FACTS.items()}
-MULTIGRID = {name: facts.multigrid_bytes for name, facts in ELEMENT_FACTS.items()}
-ROUTES = {
-    "fourier": dict.fromkeys(ELEMENT_FACTS, GRID),
-    "multigrid": MULTIGRID,
-    "direct": DIRECT,
-}
 _MOST = 2**30  # triangles whose facets 32 bits can number
 
 

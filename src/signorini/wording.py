@@ -25,7 +25,28 @@ def shown(value):
 
 
 def _cut(text):
-    return text if len(text) <= WIDTH else f"{text[: WIDTH - 3]}..."
+    return cut(text)
+
+
+def cut(text, width=WIDTH):
+    """Return text cut to a width, with dots in place of what is left out.
+
+    Parameters
+    ----------
+    text : str
+    width : int, optional
+        Characters.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> cut("a long word", 9)
+    'a long...'
+    """
+    return text if len(text) <= width else f"{text[: width - 3]}..."
 
 
 def _beginning(value, deep=4):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from signorini.exceptions import SignoriniError
-from signorini.report.compare import compare, verdict
+from signorini.report.compare import check_summary, compare, verdict
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = list(csv.DictReader((ROOT / "config/published/table_5_1.csv").read_text().splitlines()))
@@ -127,3 +127,21 @@ def test_an_empty_field_was_not_computed():
     errors[0]["h1"] = ""
     with pytest.raises(SignoriniError, match="h1 P1 n=2 was not computed"):
         compare(PUBLISHED, errors, rates)
+
+
+def test_check_summary_counts():
+    rows = [
+        {"cell": "a", "units": "0.5", "ok": "True"},
+        {"cell": "b", "units": "-0.68", "ok": "True"},
+        {"cell": "c", "units": 0.0, "ok": True},
+        {"cell": "d", "units": "-7.25", "ok": "False"},
+    ]
+    summary = check_summary(rows)
+    assert (summary.total, summary.matched, summary.exact) == (4, 3, 2)
+    assert (summary.largest, summary.largest_cell) == (7.25, "d")
+    assert str(summary).startswith("3 of 4 published numbers matched, 2 of them in every digit")
+
+
+def test_check_summary_of_nothing_is_refused():
+    with pytest.raises(ValueError, match="no published number"):
+        check_summary([])

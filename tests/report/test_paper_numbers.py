@@ -1,6 +1,4 @@
-"""Table 5.1 of the paper: all 24 numbers and 4 slopes, and that each choice it leaves unsaid
-matters.
-"""
+"""Table 5.1 of the paper: all 24 numbers and 4 slopes, and that every option it omits matters."""
 
 import csv
 from dataclasses import replace
@@ -36,8 +34,8 @@ class Statement:
 
 
 PAPER = Statement()
-UNSAID = {
-    # choice: what the table is computed with instead
+OTHER_OPTIONS = {
+    # option that the paper does not state: what the table is computed with instead
     "diagonal": {"statement": Statement(domain=SCENE.problem.domain | {"diagonal": "rising"})},
     "load": {"statement": Statement(load_quadrature="exact")},
     "load by midpoints": {"statement": Statement(load_quadrature="midpoints")},
@@ -91,9 +89,9 @@ def test_nineteen_of_them_to_the_last_digit():
     assert all(0.505 < abs(float(row["units"])) < 0.685 for row in others)
 
 
-@pytest.mark.parametrize("choice", UNSAID)
-def test_changing_an_unsaid_choice_misses_the_table(choice):
-    rows = checked(**UNSAID[choice])[:24]
+@pytest.mark.parametrize("option", OTHER_OPTIONS)
+def test_another_option_misses_the_table(option):
+    rows = checked(**OTHER_OPTIONS[option])[:24]
     assert sum(not row["ok"] for row in rows) >= 6
     assert max(abs(float(row["units"])) for row in rows) > 10
 
@@ -124,8 +122,8 @@ def test_the_slopes(element, norm, mean, fit):
 def test_exact_load_integration_reverses_the_papers_ranking_at_the_coarsest_level(
     element, n, exact
 ):
-    """With the load integrated exactly CR is the better element in L2 at N = 2 too (another code)."""
-    found = table(UNSAID["load"]["statement"])
+    """With the load integrated exactly CR is better in L2 at N = 2, too (another code)."""
+    found = table(OTHER_OPTIONS["load"]["statement"])
     assert found[element, n]["l2"] == pytest.approx(exact, abs=6e-5)
     assert found["CR", 2]["l2"] < found["P1", 2]["l2"]
     assert table()["CR", 2]["l2"] > table()["P1", 2]["l2"]
@@ -133,7 +131,7 @@ def test_exact_load_integration_reverses_the_papers_ranking_at_the_coarsest_leve
 
 def test_the_load_rule_matters_even_on_the_finest_mesh():
     """By up to 48 % at N = 2 and still 13 % at N = 64."""
-    exact = table(UNSAID["load"]["statement"])
+    exact = table(OTHER_OPTIONS["load"]["statement"])
     change = {
         n: max(abs(exact[e, n]["l2"] / table()[e, n]["l2"] - 1) for e in ELEMENTS) for n in (2, 64)
     }

@@ -11,6 +11,7 @@ import pytest
 from builders import statement
 from signorini import memory
 from signorini.exceptions import MeshError
+from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.mesh.domain import Rectangle, Refined, make_domain
 from signorini.scene.memory_check import check_level
 from signorini.scene.statement import ProblemStatement
@@ -36,7 +37,7 @@ DOMAINS = {
 }
 
 
-def asked(domain="square", **parts):
+def statement_on(domain="square", **parts):
     domain, boundary = DOMAINS[domain]
     data = {"f": 1, "g": 0, "dirichlet": 0, "obstacle": 0} | parts
     mapping = {
@@ -97,7 +98,7 @@ def test_a_domain_that_has_not_been_made_is_judged_nearly_alike(monkeypatch, dom
     known, guessed = (
         limit(
             monkeypatch,
-            lambda given=given: check_level(asked(domain), "CR", 64, "multigrid", given),
+            lambda given=given: check_level(statement_on(domain), "CR", 64, "multigrid", given),
         )
         for given in (made, None)
     )
@@ -111,7 +112,9 @@ def test_a_hole_is_no_part_of_the_area(monkeypatch):
     """Nor does the sense of rotation matter."""
     square = [[0, 0], [2, 0], [2, 2], [0, 2]]
     plain, pierced, reversed_ = (
-        replace(asked("polygon"), domain={"kind": "polygon", "corners": corners, "holes": holes})
+        replace(
+            statement_on("polygon"), domain={"kind": "polygon", "corners": corners, "holes": holes}
+        )
         for corners, holes in (
             (square, []),
             (square, [[[1, 1], [1, 1.5], [1.5, 1]]]),
@@ -123,7 +126,7 @@ def test_a_hole_is_no_part_of_the_area(monkeypatch):
         for one in (plain, pierced, reversed_)
     ]
     assert limits == pytest.approx(
-        [2 * 64**2 * area * memory.DIRECT["P1"] for area in (4, 3.875, 4)]
+        [2 * 64**2 * area * ELEMENT_FACTS["P1"].direct_bytes for area in (4, 3.875, 4)]
     )
 
 
@@ -145,41 +148,51 @@ assert not {{"numpy", "signorini.mesh.domain", "signorini.fem.problem"}} & set(s
 REFUSED = {
     # case: (statement, level, method, what the message says would do)
     "direct on a grid": (
-        asked,
+        statement_on,
         32,
         "direct",
         "; set solver.method to fourier or multigrid, or choose",
     ),
-    "direct on a large grid": (asked, 100, "direct", "; set solver.method to fourier, or choose"),
-    "multigrid on a grid": (asked, 100, "multigrid", "; set solver.method to fourier, or choose"),
-    "fourier": (asked, 150, "fourier", r" here; choose smaller levels"),
+    "direct on a large grid": (
+        statement_on,
+        100,
+        "direct",
+        "; set solver.method to fourier, or choose",
+    ),
+    "multigrid on a grid": (
+        statement_on,
+        100,
+        "multigrid",
+        "; set solver.method to fourier, or choose",
+    ),
+    "fourier": (statement_on, 150, "fourier", r" here; choose smaller levels"),
     "a varying coefficient": (
-        lambda: asked(coefficient="1 + x"),
+        lambda: statement_on(coefficient="1 + x"),
         32,
         "direct",
         "; set solver.method to multigrid, or",
     ),
     "criss-cross": (
-        lambda: asked("criss-cross"),
+        lambda: statement_on("criss-cross"),
         32,
         "direct",
         "; set solver.method to multigrid, or choose",
     ),
     "graded": (
-        lambda: asked("graded"),
+        lambda: statement_on("graded"),
         32,
         "direct",
         "; set solver.method to multigrid, or choose",
     ),
     "polygon": (
-        lambda: asked("polygon"),
+        lambda: statement_on("polygon"),
         64,
         "direct",
         "; set solver.method to multigrid, or choose",
     ),
-    "beyond all": (lambda: asked("graded"), 4096, "direct", " here; choose smaller levels"),
-    "auto beyond all": (lambda: asked("graded"), 64, "auto", " here; choose smaller levels"),
-    "auto, no grid": (lambda: asked("polygon"), 512, "auto", " here; choose smaller levels"),
+    "beyond all": (lambda: statement_on("graded"), 4096, "direct", " here; choose smaller levels"),
+    "auto beyond all": (lambda: statement_on("graded"), 64, "auto", " here; choose smaller levels"),
+    "auto, no grid": (lambda: statement_on("polygon"), 512, "auto", " here; choose smaller levels"),
 }
 
 
@@ -197,14 +210,14 @@ def test_case_10_what_does_not_fit_is_refused_by_name(case):
 @pytest.mark.parametrize("method", ["fourier", "multigrid", "direct", "auto"])
 def test_what_fits_passes(method):
     for domain in DOMAINS:
-        check_level(asked(domain), "P1", 8, method)
+        check_level(statement_on(domain), "P1", 8, method)
 
 
 @pytest.mark.usefixtures("small_machine", "no_mesh")
 def test_auto_takes_what_fits():
-    check_level(asked(), "P1", 100, "auto")
+    check_level(statement_on(), "P1", 100, "auto")
     with pytest.raises(MeshError, match=r"solver\.method auto"):
-        check_level(asked(coefficient="1 + x"), "P1", 100, "auto")
+        check_level(statement_on(coefficient="1 + x"), "P1", 100, "auto")
 
 
 @pytest.mark.usefixtures("small_machine", "no_mesh")
@@ -220,6 +233,6 @@ def test_fourier_is_named_only_where_it_applies():
 
 @pytest.mark.usefixtures("small_machine", "no_mesh")
 def test_elements_differ_in_what_they_need():
-    check_level(asked(), "P1", 20, "direct")
+    check_level(statement_on(), "P1", 20, "direct")
     with pytest.raises(MeshError, match=r"n = 20 for CR by solver\.method direct"):
-        check_level(asked(), "CR", 20, "direct")
+        check_level(statement_on(), "CR", 20, "direct")

@@ -35,7 +35,8 @@ LABELS = {
     "contact only": ("contact",) * 4,
     "no contact": ("neumann", "dirichlet", "dirichlet", "neumann"),
 }
-FLUX = "where(x < 1e-9, -({0}), where(x > 1 - 1e-9, {0}, where(y < 1e-9, -({1}), {1})))"  # of gradient ({0}, {1})
+# Of gradient ({0}, {1}).
+FLUX = "where(x < 1e-9, -({0}), where(x > 1 - 1e-9, {0}, where(y < 1e-9, -({1}), {1})))"
 
 
 @pytest.fixture(params=ELEMENTS)

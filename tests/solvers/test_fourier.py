@@ -124,7 +124,7 @@ def test_both_routes_agree_on_formulas(labels, element, quadrature):
 
 
 def test_both_routes_agree_to_rounding(element):
-    """Which takes the direct route's step of iterative refinement: without it they are 1e-13 apart."""
+    """It takes the direct route's iterative refinement: without it they are 1e-13 apart."""
     problem = discretize_on(grid(64), element, statement(**DATA))
     fourier, direct = (solve(problem, method) for method in ("fourier", "direct"))
     np.testing.assert_allclose(fourier.u, direct.u, rtol=0, atol=1e-14)

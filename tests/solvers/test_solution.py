@@ -101,7 +101,7 @@ def test_the_solution_of_another_problem_is_seen(problem, case):
 
 
 def test_a_contact_that_pulls_is_seen(problem, solution):
-    """All equations hold and the obstacle is touched everywhere, but at some dofs it holds u back."""
+    """All equations hold and u touches the obstacle, but at some dofs it is held back by it."""
     dofs = np.append(problem.fixed, problem.contact)
     glued = replace(
         problem,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from builders import DATA, delaunay, grid, statement
+from signorini import rivals
 from signorini.fem.problem import discretize_on
 from signorini.solvers import METHODS
-from signorini.studies import rivals
 from signorini.studies.benchmark import comparison
 from signorini.studies.benchmark.columns import RIVAL
 from signorini.studies.benchmark.comparison import compare, rows_apart
@@ -71,7 +71,7 @@ def test_an_absent_rival_says_how_to_install_it(monkeypatch):
 
 
 def test_a_wrong_answer_is_failed_though_claimed(monkeypatch):
-    from signorini.studies.rivals import active_set
+    from signorini.rivals import active_set
 
     monkeypatch.setattr(active_set, "superlu", lambda qp: (np.zeros_like(qp.f), True, 1))
     row = met()[0][0]
@@ -80,7 +80,7 @@ def test_a_wrong_answer_is_failed_though_claimed(monkeypatch):
 
 
 def test_a_rival_without_an_answer_has_no_difference(monkeypatch):
-    from signorini.studies.rivals import active_set
+    from signorini.rivals import active_set
 
     monkeypatch.setattr(active_set, "superlu", lambda qp: 1 / 0)
     row = met()[0][0]

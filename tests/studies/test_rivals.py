@@ -9,8 +9,8 @@ import pytest
 from builders import DATA, delaunay, statement
 from signorini.fem.problem import discretize_on
 from signorini.generated.problems import instance
+from signorini.rivals import RIVALS, BoundProblem, Rival, active_set
 from signorini.solvers import kkt_residual, solve
-from signorini.studies.rivals import RIVALS, BoundProblem, Rival, active_set
 
 
 @pytest.fixture(params=["P1", "CR"])
@@ -84,7 +84,7 @@ def test_a_rival_that_is_absent_says_what_to_install():
 
 def test_nothing_foreign_is_imported_before_it_is_asked_for():
     program = (
-        "import sys, signorini.studies.rivals; "
+        "import sys, signorini.rivals; "
         "sys.exit(bool({'scipy', 'osqp', 'pyamg', 'ngsolve'} & set(sys.modules)))"
     )
     subprocess.run(

@@ -10,11 +10,8 @@ from pathlib import Path
 import pytest
 
 from signorini import load_scene
-from signorini.storage import write_csv
-from signorini.studies.sensitivity import combinations as study
-from signorini.studies.sensitivity import solves
-from signorini.studies.sensitivity.errors import errors_of_diagonal
-from signorini.studies.sensitivity.options import (
+from signorini.open_choices import solves
+from signorini.open_choices.options import (
     DIAGONALS,
     LOADS,
     OPTIONS,
@@ -22,6 +19,9 @@ from signorini.studies.sensitivity.options import (
     RULES,
     count_solves,
 )
+from signorini.storage import write_csv
+from signorini.studies.sensitivity import combinations as study
+from signorini.studies.sensitivity.errors import errors_of_diagonal
 from signorini.studies.sensitivity.page import page
 
 ROOT = Path(__file__).parents[2]

@@ -18,10 +18,10 @@ from signorini.generated.bodies import FAMILIES
 from signorini.generated.numbering import renumber
 from signorini.generated.problems import LOADS, instance
 from signorini.judge import judge
+from signorini.rivals.worker import Worker
 from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
 from signorini.solvers import METHODS, solve
-from signorini.studies.rivals.worker import Worker
 from signorini.studies.stability import digits as variants
 from signorini.studies.stability import parts, summaries
 from signorini.studies.stability.claims import claims

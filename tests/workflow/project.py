@@ -36,8 +36,8 @@ outputs: [errors, rates, table, figures]
 """
 
 # Written beside the results by every Python process of a run, under the name of its command, or of
-# its program: which modules it had loaded at its end; and at once, for it may be killed, which rooms
-# of the library it asks for, also under the command that started it.
+# its program: which modules it had loaded at its end; and at once, for it may be killed, which
+# rooms of the library it asks for, also under the command that started it.
 SPY = """\
 import atexit, json, os, sys
 from pathlib import Path

@@ -8,8 +8,8 @@ import re
 import pytest
 from project import FILES, inputs_of_commands, modules_of, undeclared
 
+from signorini.rivals import RIVALS
 from signorini.solvers import METHODS
-from signorini.studies.rivals import RIVALS
 
 LITTLE = """\
 scenes:
@@ -108,7 +108,7 @@ def test_rivals_are_inputs_of_their_comparisons(built):
         built[0].build(*QUICK, "--dry-run", "--forceall", "--quiet", "host").text
     )
     needed = {
-        "src/signorini/studies/rivals/quadratic.py",
+        "src/signorini/rivals/quadratic.py",
         "src/signorini/solvers/direct.py",
         "src/signorini/mesh/grid.py",
     }

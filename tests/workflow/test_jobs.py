@@ -14,17 +14,15 @@ ERRORS = {"errors": 1, "rates": 1, "table": 1} | FIGURES
 SHOWN = {"field": 1, "contact_line": 1} | FIGURES
 SOLVES = {"reference": 1, "solve": 4} | SHOWN | ERRORS
 EVERYTHING = {"mesh": 1} | SOLVES
-SCENE = {"scene": 1}
 
 
 def test_clean_build(fresh):
-    assert fresh.jobs() == EVERYTHING | SCENE
+    assert fresh.jobs() == EVERYTHING
 
 
 def test_clean_build_of_the_paper(fresh):
     fresh.ask_for("paper")
     expected = {
-        "scene": 1,
         "mesh": 1,
         "reference": 1,
         "solve": 12,
@@ -43,7 +41,7 @@ def test_nothing_to_do(built_paper):
 
 
 def test_a_copy_with_new_time_stamps_has_nothing_to_do(small):
-    """Snakemake compares the contents of source files, so that a checkout or a copy starts nothing."""
+    """Snakemake compares the contents of source files, so that a copy starts nothing."""
     for path in [*(small / "src").rglob("*.py"), small / "config/scenes/small.yaml"]:
         os.utime(path)
     assert small.jobs() == {}
@@ -54,27 +52,27 @@ MODULES = {
     "figures/surface.py": {},
     "figures/convergence.py": FIGURES,
     "figures/style.py": FIGURES,
-    "errors/rates.py": SCENE | {"rates": 1, "table": 1} | FIGURES,
+    "errors/rates.py": {"rates": 1, "table": 1} | FIGURES,
     "errors/reference.py": ERRORS,
     "fem/contact_line.py": ERRORS | SHOWN,
-    "exact/harmonic.py": SCENE | EVERYTHING,
+    "exact/harmonic.py": EVERYTHING,
     "solvers/contact.py": SOLVES,
-    "mesh/domain.py": SCENE | EVERYTHING,
-    "scene/read.py": SCENE,
-    "scene/scene.py": SCENE | EVERYTHING,
+    "mesh/domain.py": EVERYTHING,
+    "scene/read.py": {},
+    "scene/scene.py": EVERYTHING,
 }
 
 # What is edited in the scene -> the text, its replacement, and what that starts.
 FIELDS = {
-    "title": ("title: A scene for tests", "title: Another", SCENE | FIGURES),
-    "slope": ("slope: mean", "slope: fit", SCENE | {"table": 1} | FIGURES),
-    "norms": ("norms: [l2, h1]", "norms: [l2]", SCENE | ERRORS),
-    "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", SCENE | ERRORS),
-    "outputs": ("[errors, rates, table, figures]", "[errors]", SCENE),
-    "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SCENE | SOLVES),
-    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", SCENE | ERRORS | SHOWN | {"solve": 2}),
-    "boundary": ("left: neumann", "left: dirichlet", SCENE | EVERYTHING),
-    "domain": ("{kind: rectangle}", "{kind: rectangle, diagonal: rising}", SCENE | EVERYTHING),
+    "title": ("title: A scene for tests", "title: Another", FIGURES),
+    "slope": ("slope: mean", "slope: fit", {"table": 1} | FIGURES),
+    "norms": ("norms: [l2, h1]", "norms: [l2]", ERRORS),
+    "norm_quadrature": ("slope: mean", "slope: mean\nnorm_quadrature: midpoints", ERRORS),
+    "outputs": ("[errors, rates, table, figures]", "[errors]", {}),
+    "data": ("data: {f: 2*pi*sin(2*pi*x)}", "data: {f: 6*sin(2*pi*x)}", SOLVES),
+    "a level more": ("levels: [2, 4]", "levels: [2, 4, 8]", ERRORS | SHOWN | {"solve": 2}),
+    "boundary": ("left: neumann", "left: dirichlet", EVERYTHING),
+    "domain": ("{kind: rectangle}", "{kind: rectangle, diagonal: rising}", EVERYTHING),
 }
 
 
@@ -137,7 +135,7 @@ def test_a_process_imports_only_what_it_needs(built_small, spied):
     imports = modules_of(spied / "small")
     assert {name for name in imports if "matplotlib" in imports[name]} == {"figures"}
     readers = {name for name in imports if {"yaml", "jsonschema"} & imports[name]}
-    assert readers == {"snakemake", "check"}
+    assert readers == {"snakemake"}
     heavy = {"scipy", "skfem", "signorini.mesh.domain", "signorini.solvers"}
     assert not heavy & imports["snakemake"]
 
@@ -148,6 +146,7 @@ def test_all_files_of_the_paper(built_paper):
     ]
     names += [f"figure_5_{k}.{ending}" for k in (1, 2, 3) for ending in ("pdf", "png")]
     names += [
+        "scene.json",
         "reference.npz",
         "surface.npz",
         "errors.csv",
@@ -175,15 +174,17 @@ def test_what_is_not_asked_for_is_not_built(fresh, tmp_path, all_jobs):
     fresh.write("config/scenes/bare.yaml", f"{bare}solver: {{method: direct}}\n")
     fresh.ask_for("lean", "bare")
     run = fresh.spied_build(tmp_path / "spied")
-    assert run.jobs == {"scene": 2, "mesh": 1, "reference": 1, "solve": 6, "errors": 1}
+    assert run.jobs == {"mesh": 1, "reference": 1, "solve": 6, "errors": 1}
     imports = modules_of(tmp_path / "spied")
     assert not [name for name in imports if "matplotlib" in imports[name]]
     assert "signorini.solvers.direct" in imports["solve"]
     assert not left_out(imports["solve"], inputs_of_commands(all_jobs["small"].text)["solve"])
-    names = [f"bare/solutions/{element}/n{n}.npz" for element in ("CR", "P1") for n in (2, 4)]
+    names = ["bare/scene.json"]
+    names += [f"bare/solutions/{element}/n{n}.npz" for element in ("CR", "P1") for n in (2, 4)]
     names += [
         "lean/errors.csv",
         "lean/reference.npz",
+        "lean/scene.json",
         "lean/solutions/P1/n2.npz",
         "lean/solutions/P1/n4.npz",
     ]

@@ -14,7 +14,7 @@ from signorini.commands.sources import sources
 MODULES = sorted((ROOT / "src/signorini").rglob("*.py"))
 # These compose names, of commands and for users: `signorini.solve`.
 COMPOSING = [ROOT / "src/signorini" / name for name in ("__init__.py", "commands/program.py")]
-UNUSED = {"new", "scenes", "show"}  # by the workflow
+UNUSED = {"check", "new", "scenes", "show"}  # by the workflow
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def _composed(call):
 
 def test_rivals_are_inputs_of_their_study(declared):
     names = ("active_set", "bounded", "quadratic")
-    adapters = {f"src/signorini/studies/rivals/{name}.py" for name in names}
+    adapters = {f"src/signorini/rivals/{name}.py" for name in names}
     assert adapters <= declared["stability success"]
     assert adapters <= declared["benchmark rival"]
     assert not adapters & declared["benchmark point"]

@@ -9,5 +9,7 @@ def test_two_clean_builds_agree(built_small, tmp_path):
     other.build("--cores", "1", PYTHONHASHSEED="1", LC_ALL="C", OMP_NUM_THREADS="1")
     first, second = built_small.results(), other.results()
     assert first.keys() == second.keys()
-    assert {name.rpartition(".")[2] for name in first} == {"npz", "csv", "tex", "md", "pdf", "png"}
+    assert {name.rpartition(".")[2] for name in first} == {
+        *("npz", "csv", "json", "tex", "md", "pdf", "png")
+    }
     assert [name for name in first if first[name] != second[name]] == []

@@ -36,7 +36,8 @@ def test_files(built):
     }
     pages = {"sensitivity.csv", "sensitivity_ratios.csv", "sensitivity.tex", "sensitivity.md"}
     diagonals = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
-    assert found == pages | pictures | {f"errors/{diagonal}.csv" for diagonal in diagonals}
+    errors = {f"errors/{diagonal}.csv" for diagonal in diagonals}
+    assert found == pages | pictures | errors | {"paper/scene.json"}
 
 
 def test_a_quick_page_says_so(built):
@@ -52,7 +53,7 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     project, _, spied = built
     missing = undeclared(project, spied, *QUICK)
     own = [command for command in FILES if command.startswith("sensitivity ")]
-    assert missing == {command: [] for command in [*own, "check"]}
+    assert missing == {command: [] for command in own}
 
 
 def test_the_full_study_is_another(built):

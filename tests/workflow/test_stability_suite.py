@@ -38,15 +38,15 @@ def suite(built):
 def test_what_a_job_loads_is_among_its_inputs(built, spied):
     missing = undeclared(built, spied, *QUICK)
     own = [command for command in FILES if command.startswith("stability ")]
-    assert missing == {command: [] for command in [*own, "check"]}
+    assert missing == {command: [] for command in own}
     found = rooms_of(spied)["stability success"]
-    assert "signorini.studies.rivals.bounded" in found  # SciPy's, always there
+    assert "signorini.rivals.bounded" in found  # SciPy's, always there
 
 
 def test_an_edited_rival_is_tried_again(built, tmp_path):
     project = built.copy(tmp_path / "project")
     assert project.jobs(*QUICK) == {}
-    path = "src/signorini/studies/rivals/bounded.py"
+    path = "src/signorini/rivals/bounded.py"
     project.write(path, (project / path).read_text(encoding="utf-8") + "# a comment\n")
     assert project.jobs(*QUICK)["stability_success"] == len(FAMILIES)
 

@@ -33,7 +33,7 @@ def benchmark_settings(*keys):
 
 
 def benchmark_scenes(wildcards):
-    return [f"results/{name}/scene.json" for name in measured()["scenes"]]
+    return [validated_file(name) for name in measured()["scenes"]]
 
 
 def benchmark_errors_asked(wildcards):
@@ -64,7 +64,7 @@ def point_before(wildcards):
 
 
 def rival_files(wildcards):
-    from signorini.studies.rivals import RIVALS
+    from signorini.rivals import RIVALS
 
     return [
         f"{BENCHMARK}/rivals/{name}/{element}/{rival}.csv"

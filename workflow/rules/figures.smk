@@ -97,7 +97,7 @@ rule figures:
 rule gallery:
     input:
         library("gallery"),
-        scenes=ancient(expand("results/{scene}/scene.json", scene=known_scenes())),
+        scenes=ancient(lambda wildcards: [validated_file(name) for name in known_scenes()]),
         fields=expand("results/{scene}/field.npz", scene=known_scenes()),
     output:
         report("results/gallery.png", caption="../report/gallery.rst"),

@@ -3,6 +3,7 @@
 from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.scene.read import check_name, read_scene
+from signorini.scene.validated import keep_validated
 
 
 @cache
@@ -57,7 +58,20 @@ def known_scenes():
 
 def scene_file(wildcards):
     """The validated scene, an input that starts no job: params hold the parts on which a job depends."""
-    return f"results/{wildcards.scene}/scene.json"
+    return validated_file(wildcards.scene)
+
+
+@cache
+@reported
+def validated_file(name):
+    """The file of a validated scene, which is brought up to date here.
+
+    Not by a rule: where another job of the same run writes an input that is ancient, Snakemake looks at no other reason
+    to run a job, such as params that changed.
+    """
+    path = f"results/{name}/scene.json"
+    keep_validated(path, scene(name))
+    return path
 
 
 def statement(wildcards):

@@ -4,7 +4,7 @@
 rule mesh:
     input:
         library("mesh"),
-        scene=ancient(lambda wildcards: f"results/{scene_of_mesh(wildcards.mesh)}/scene.json"),
+        scene=ancient(lambda wildcards: validated_file(scene_of_mesh(wildcards.mesh))),
         source=mesh_source,
     output:
         "results/meshes/{mesh}.npz",

@@ -19,7 +19,7 @@ use rule figure_surface as figure_5_1 with:
 rule figures_5_2_and_5_3:
     input:
         library("draw-convergence"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
     output:
@@ -46,7 +46,7 @@ rule figures_5_2_and_5_3:
 rule check:
     input:
         library("compare"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
         published=PUBLISHED,
@@ -80,7 +80,7 @@ rule verify:
 rule effects:
     input:
         library("effects"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors="results/paper/errors.csv",
     output:
         "results/paper/effects.csv",
@@ -99,7 +99,7 @@ rule effects:
 rule macros:
     input:
         library("macros"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors="results/paper/errors.csv",
         rates="results/paper/rates.csv",
         surface="results/paper/surface.npz",

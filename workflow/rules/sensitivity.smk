@@ -1,7 +1,7 @@
 # `snakemake sensitivity`: the paper's table under all combinations of the options that the paper leaves open. Every job
 # solves what one diagonal needs; the rest is arithmetic on its errors.
 
-from signorini.studies.sensitivity.options import DIAGONALS
+from signorini.open_choices.options import DIAGONALS
 
 SENSITIVITY = f"{STUDIES}/sensitivity"
 
@@ -9,7 +9,7 @@ SENSITIVITY = f"{STUDIES}/sensitivity"
 rule sensitivity_errors:
     input:
         library("sensitivity errors"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
     output:
         f"{SENSITIVITY}/errors/{{diagonal,[a-z-]+}}.csv",
     log:
@@ -30,7 +30,7 @@ rule sensitivity_errors:
 rule sensitivity_combinations:
     input:
         library("sensitivity combinations"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors=expand(f"{SENSITIVITY}/errors/{{diagonal}}.csv", diagonal=DIAGONALS),
         published=PUBLISHED,
     output:
@@ -71,7 +71,7 @@ rule sensitivity:
         library("sensitivity report"),
         rules.sensitivity_combinations.output,
         rules.figure_sensitivity.output,
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
         errors=rules.sensitivity_combinations.input.errors,
         published=PUBLISHED,
     output:

@@ -24,7 +24,7 @@ rule stability_success:
 rule stability_digits:
     input:
         library("stability digits"),
-        scene=ancient(PAPER_SCENE),
+        scene=ancient(paper_scene),
     output:
         f"{STABILITY}/digits/{{variant}}.csv",
     log:

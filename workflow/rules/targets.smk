@@ -4,7 +4,11 @@ import atexit
 PUBLISHED = "config/published/table_5_1.csv"
 WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
 FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
-PAPER_SCENE = "results/paper/scene.json"
+
+
+def paper_scene(wildcards):
+    """The scene `paper`, validated."""
+    return validated_file("paper")
 
 
 def of_paper(*keys):

@@ -17,19 +17,13 @@ from signorini.scene.validated import write_validated
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument("scene", metavar="SCENE", help="a scene file, config/scenes/NAME.yaml")
-    parser.add_argument(
-        "--document-only",
-        action="store_true",
-        help="leave out what takes a mesh: names of boundary parts, data against an exact solution",
-    )
     add_output(parser, "the validated scene, .json", required=False)
 
 
 def run(arguments):
     """Validate, and write the result where asked to."""
     scene = read_scene(arguments.scene)
-    if not arguments.document_only:
-        scene.check()
+    scene.check()
     if arguments.output:
         write_validated(arguments.output, scene)
     counted = f"{len(scene.elements)} elements on {len(scene.levels)} levels"

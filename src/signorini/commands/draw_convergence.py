@@ -6,9 +6,10 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_drawings, add_scene, scene_of
-from signorini.figures.convergence import draw_convergence, slopes_of
+from signorini.figures.convergence import draw_convergence
 from signorini.figures.style import save_figure
 from signorini.report.result_files import read_errors, read_rates
+from signorini.report.slopes import slopes_of
 
 
 def add_arguments(parser):

@@ -6,10 +6,10 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
+from signorini.open_choices.effects import effects_of_options
 from signorini.report.result_files import read_errors
 from signorini.scene.scene import naming
 from signorini.storage import write_csv
-from signorini.studies.sensitivity.effects import effects_of_options
 
 _NORMS = ("l2", "h1_semi", "h1")
 

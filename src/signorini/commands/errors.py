@@ -8,6 +8,8 @@ example:
   signorini errors config/scenes/paper.yaml --reference reference.npz -o errors.csv u4.npz u8.npz
 """
 
+import logging
+
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.errors.measure import against_exact, against_reference, row
@@ -16,6 +18,7 @@ from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
 
+_log = logging.getLogger(__name__)
 _SHOWN = ("element", "n", "h", "dofs")
 
 
@@ -73,6 +76,7 @@ def _solve(scene, element, n):
     from signorini.solvers import solve
     from signorini.solvers.stored import stored
 
+    _log.info("%s n = %d: solving", element, n)
     domain, method = scene.problem.triangulations, scene.document["solver"]["method"]
     problem = discretize_on(domain.level(n), element, scene.problem)
     return stored(problem, solve(problem, method), n, domain.mesh_size(n))

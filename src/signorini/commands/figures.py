@@ -10,10 +10,11 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_scene, scene_of
 from signorini.errors.norms import RATED
 from signorini.figures.contact_line import draw_contact_line
-from signorini.figures.convergence import draw_convergence, slopes_of
+from signorini.figures.convergence import draw_convergence
 from signorini.figures.field import draw_field
 from signorini.figures.style import save_figure
 from signorini.report.result_files import read_errors, read_rates
+from signorini.report.slopes import slopes_of
 from signorini.storage import read_csv, read_npz
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
-from signorini.report.macros import CHOICES, macros, paper_values
+from signorini.report.macros import VARIED_OPTIONS, macros, paper_values
 from signorini.report.result_files import read_errors, read_rates
 from signorini.storage import read_csv, read_npz, read_table, write_text
 
@@ -34,7 +34,8 @@ def run(arguments):
     """Collect the numbers and write the macros."""
     scene, results = scene_of(arguments.scene), arguments.results
     asked = scene.section("elements", "levels", "norms")
-    effects = read_csv(results / "effects.csv", numbers=("change",), every={"choice": CHOICES})
+    every = {"choice": VARIED_OPTIONS}
+    effects = read_csv(results / "effects.csv", numbers=("change",), every=every)
     published = [row for row in read_table(arguments.published) if row["quantity"] == "slope"]
     values = paper_values(
         read_errors(results / "errors.csv", asked),

@@ -43,7 +43,7 @@ def main(words=None):
         return MISTAKE
     _prepare()
     module = importlib.import_module(module_of(command))
-    arguments = _parser(command, module).parse_args(rest)
+    arguments = _parser(command, module).parse_intermixed_args(rest)
     return _run(module, arguments)
 
 

@@ -14,7 +14,7 @@ from signorini.scene.read import read_scene
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument(
-        "folder", nargs="?", default="config/scenes", help="default: %(default)s", type=Path
+        "folder", nargs="?", default="config/scenes", help="default: config/scenes", type=Path
     )
 
 

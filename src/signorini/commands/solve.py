@@ -7,6 +7,8 @@ example:
   signorini solve config/scenes/paper.yaml --element CR --n 64 -o u.npz
 """
 
+import logging
+
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.exceptions import SceneError
@@ -15,6 +17,8 @@ from signorini.scene.memory_check import check_level
 from signorini.scene.scene import naming
 from signorini.solvers import solve
 from signorini.solvers.stored import write_solution
+
+_log = logging.getLogger(__name__)
 
 
 def add_arguments(parser):
@@ -46,7 +50,11 @@ def run(arguments):
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)
         check_level(scene.problem, element, n, method, domain)
-        problem = discretize_on(domain.level(n), element, scene.problem)
+        _log.info("%s n = %d: mesh", element, n)
+        mesh = domain.level(n)
+        _log.info("%s n = %d: discretising, %d triangles", element, n, mesh.number_of_triangles)
+        problem = discretize_on(mesh, element, scene.problem)
+        _log.info("%s n = %d: solving, %d free dofs", element, n, problem.free.size)
         solution = solve(problem, method)
     if arguments.output:
         write_solution(arguments.output, problem, solution, n, domain.mesh_size(n))

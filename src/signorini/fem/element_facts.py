@@ -6,6 +6,8 @@ Nothing here imports NumPy, so that a scene can be checked without it. What the 
 
 from dataclasses import dataclass
 
+from signorini.memory import GRID
+
 
 @dataclass(frozen=True)
 class ElementFacts:
@@ -37,6 +39,23 @@ class ElementFacts:
     def label(self):
         """In the legend of a figure: abbreviation and name."""
         return f"{self.abbreviation} ({self.name})"
+
+    def bytes_by(self, route):
+        """Memory that a solve needs for each triangle.
+
+        Parameters
+        ----------
+        route : {"fourier", "multigrid", "direct"}
+
+        Returns
+        -------
+        int
+        """
+        return {
+            "fourier": GRID,
+            "multigrid": self.multigrid_bytes,
+            "direct": self.direct_bytes,
+        }[route]
 
 
 P1_FACTS = ElementFacts(

@@ -1,4 +1,5 @@
-"""Figures 5.1-5.3: drawn from numbers in files, nothing is computed here.
+"""Figures of the paper, of any scene and of the studies, drawn from numbers in files.
 
-Import the room you need: `figures.surface`, `figures.convergence`, and `figures.style.save_figure`.
+Nothing is computed here but places on the page: what a figure shows, `signorini.report` computes.
+Import the module of the figure, and `figures.style.save_figure`.
 """

@@ -6,6 +6,7 @@ import matplotlib
 
 from signorini.errors.norms import NORMS
 from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.figures.heat import draw_heat, name_rows_and_columns
 from signorini.figures.style import (
     ACCENT,
     BLACK,
@@ -16,6 +17,7 @@ from signorini.figures.style import (
     TEXT_WIDTH,
     new_figure,
 )
+from signorini.report.curves import round_off_of_aspects, round_off_of_widths, thinned
 
 SMALL = STYLE | {
     "font.size": 7,
@@ -28,18 +30,23 @@ MARKERS = {element: style["marker"] for element, style in ELEMENT_STYLES.items()
 COLOURS = {element: style["color"] for element, style in ELEMENT_STYLES.items()}
 NAMES = {element: facts.label for element, facts in ELEMENT_FACTS.items()}
 TITLES = {norm: NORMS[norm].symbol for norm in ("l2", "h1_semi")}  # of the norms that are drawn
-EPS = 2.0**-52
+FAMILIES = {"smooth": ("error", "-"), "patch": ("round-off", (0, (4, 2)))}  # label and line
+DIGITS = (4, 16)  # shown on the darkest ground, and on white
+SOLVED = 1e-10  # stated accuracy, at most, of a solution that is called solved
+_DASHED = (0, (4, 2))
+_DOTTED = {"linewidth": 0.6, "linestyle": (0, (1, 1.5))}
+_THIN = {"linewidth": 0.6, "zorder": 0}
 
 
 @matplotlib.rc_context(SMALL)
 def draw_digits(cells):
-    """A heat map per element: correct digits of the worst solution, for each family of meshes and
-    kind of load.
+    """Draw a heat map per element: correct digits of the worst solution.
 
     Parameters
     ----------
     cells : dict
-        (element, family, load) -> (digits, share solved).
+        (element, family, load) -> (digits, share solved): a row of the map for each family of
+        meshes, a column for each kind of load.
 
     Returns
     -------
@@ -49,29 +56,29 @@ def draw_digits(cells):
     height = 0.14 + 0.04 * len(families)
     figure = new_figure(TEXT_WIDTH, height * TEXT_WIDTH)
     for k, element in enumerate(elements):
-        axes = figure.add_axes((0.13 + 0.45 * k, 0.084 / height, 0.41, 1 - 0.126 / height))
-        values = [[cells[element, family, load][0] for load in loads] for family in families]
-        shares = [[cells[element, family, load][1] for load in loads] for family in families]
-        texts = [
-            [_digits_text(*cell) for cell in zip(*row, strict=True)]
-            for row in zip(values, shares, strict=True)
-        ]
-        _heat(axes, values, texts, (4, 16))
-        axes.set_xticks(range(len(loads)), loads, rotation=40, ha="right", rotation_mode="anchor")
-        axes.set_yticks(range(len(families)), families if k == 0 else [""] * len(families))
+        place = (0.13 + 0.45 * k, 0.084 / height, 0.41, 1 - 0.126 / height)
+        axes = figure.add_axes(place)
+        rows = [[cells[element, family, load] for load in loads] for family in families]
+        values = [[digits for digits, _ in row] for row in rows]
+        texts = [[_digits_text(*cell) for cell in row] for row in rows]
+        draw_heat(axes, values, texts, DIGITS)
+        name_rows_and_columns(axes, [""] * len(families) if k else families, loads)
         axes.set_title(NAMES[element], fontsize=8)
     return figure
 
 
+def _digits_text(digits, share):
+    return f"{digits:.1f}" if share == 1 else f"{digits:.1f}\n{100 * share:.0f} %"
+
+
 @matplotlib.rc_context(SMALL)
 def draw_rivals(by_load, by_family, titles):
-    """Two heat maps: percent solved by each solver, for each kind of load and for each family of
-    meshes.
+    """Draw two heat maps: percent solved by each solver.
 
     Parameters
     ----------
     by_load, by_family : dict
-        (solver, load or family) -> share between 0 and 1.
+        (solver, load or family of meshes) -> share between 0 and 1.
     titles : dict
         Solver -> its name.
 
@@ -81,43 +88,29 @@ def draw_rivals(by_load, by_family, titles):
     """
     figure = new_figure(TEXT_WIDTH, (0.12 + 0.032 * len(titles)) * TEXT_WIDTH)
     for k, cells in enumerate((by_load, by_family)):
-        columns = list(dict.fromkeys(column for _, column in cells))
         axes = figure.add_axes((0.245 + 0.375 * k, 0.2, 0.365, 0.76))
-        values = [
-            [cells.get((solver, column), math.nan) for column in columns] for solver in titles
-        ]
-        texts = [["" if math.isnan(v) else f"{math.floor(100 * v)}" for v in row] for row in values]
-        _heat(axes, values, texts, (0, 1))
-        axes.set_xticks(
-            range(len(columns)), columns, rotation=40, ha="right", rotation_mode="anchor"
-        )
-        axes.set_yticks(range(len(titles)), titles.values() if k == 0 else [""] * len(titles))
+        columns = list(dict.fromkeys(column for _, column in cells))
+        values = [[cells.get((name, column), math.nan) for column in columns] for name in titles]
+        texts = [[_percent_text(share) for share in row] for row in values]
+        draw_heat(axes, values, texts, (0, 1))
+        name_rows_and_columns(axes, [""] * len(titles) if k else titles.values(), columns)
     return figure
 
 
-def _digits_text(digits, share):
-    return f"{digits:.1f}" if share == 1 else f"{digits:.1f}\n{100 * share:.0f} %"
+def _percent_text(share):
+    return "" if math.isnan(share) else f"{math.floor(100 * share)}"
 
 
-def _heat(axes, values, texts, limits):
-    """A table of numbers on a ground that is the darker the smaller they are."""
-    colours = matplotlib.colors.LinearSegmentedColormap.from_list("faint", [ACCENT, "white"])
-    axes.imshow(values, cmap=colours, vmin=limits[0], vmax=limits[1], aspect="auto")
-    middle = 0.35 * limits[1] + 0.65 * limits[0]
-    for i, row in enumerate(texts):
-        for j, text in enumerate(row):
-            dark = values[i][j] < middle
-            axes.text(
-                j, i, text, ha="center", va="center", fontsize=6.5, color="white" if dark else BLACK
-            )
-    axes.tick_params(length=0)
-    for spine in axes.spines.values():
-        spine.set_visible(True)
+def _two_panels(figure):
+    """Two logarithmic axes side by side."""
+    for k in (0, 1):
+        place = (0.085 + 0.5 * k, 0.14, 0.405, 0.76)
+        yield figure.add_axes(place, xscale="log", yscale="log")
 
 
 @matplotlib.rc_context(SMALL)
 def draw_estimates(pairs, span):
-    """Stated accuracy against true error, a panel for u and one for the contact forces.
+    """Draw stated accuracy against true error, a panel for u and one for the contact forces.
 
     Parameters
     ----------
@@ -131,37 +124,30 @@ def draw_estimates(pairs, span):
     matplotlib.figure.Figure
     """
     figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
-    for k, (title, points) in enumerate(pairs.items()):
-        axes = figure.add_axes((0.085 + 0.5 * k, 0.14, 0.405, 0.76), xscale="log", yscale="log")
-        line = [1e-18, 1.0]
-        for factor in (1 / span[0], 1.0, span[1]):
-            look = {"linewidth": 0.6, "linestyle": "-" if factor == 1 else (0, (4, 2)), "zorder": 0}
-            axes.plot(line, [factor * x for x in line], color=GREY, **look)
+    for (title, points), axes in zip(pairs.items(), _two_panels(figure), strict=False):
+        _draw_span(axes, (1e-18, 1.0), span)
         for solved, colour, label in ((True, BLACK, "solved"), (False, ACCENT, "inaccurate")):
-            x, y = _thinned([(error, accuracy) for error, accuracy, own in points if own == solved])
-            axes.scatter(x, y, 3, colour, linewidths=0, label=label)
-        axes.axhline(1e-10, color=FAINT, linewidth=0.6, zorder=0)
-        axes.set(
-            xlabel="true error",
-            ylabel="" if k else "accuracy as stated",
-            title=title,
-            xlim=line,
-            ylim=line,
-        )
+            own = [(error, accuracy) for error, accuracy, status in points if status == solved]
+            axes.scatter(*thinned(own), 3, colour, linewidths=0, label=label)
+        axes.axhline(SOLVED, color=FAINT, **_THIN)
+        axes.set(xlabel="true error", title=title)
         axes.title.set_fontsize(8)
+    figure.axes[0].set_ylabel("accuracy as stated")
     axes.legend(loc="upper left")
     return figure
 
 
-def _thinned(points):
-    """One point for each tenth of a decade either way."""
-    cells = {tuple(round(10 * math.log10(value)) for value in point) for point in points}
-    return [[10 ** (cell[k] / 10) for cell in sorted(cells)] for k in (0, 1)]
+def _draw_span(axes, ends, span):
+    """The diagonal of a square of axes, and the lines that miss it by factors, dashed."""
+    for factor in (1 / span[0], 1.0, span[1]):
+        line = "-" if factor == 1 else _DASHED
+        axes.plot(ends, [factor * x for x in ends], color=GREY, linestyle=line, **_THIN)
+    axes.set(xlim=ends, ylim=ends)
 
 
 @matplotlib.rc_context(SMALL)
 def draw_floor(errors, lines):
-    """Errors against h, a panel per norm: truncation falls, round-off rises.
+    """Draw errors against h, a panel per norm: truncation falls, round-off rises.
 
     Parameters
     ----------
@@ -175,40 +161,14 @@ def draw_floor(errors, lines):
     matplotlib.figure.Figure
     """
     figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
-    for k, (norm, title) in enumerate(TITLES.items()):
-        axes = figure.add_axes((0.085 + 0.5 * k, 0.14, 0.405, 0.76), xscale="log", yscale="log")
+    levels = sorted({row["n"] for row in errors})
+    labelled = levels[::-2]
+    for (norm, title), axes in zip(TITLES.items(), _two_panels(figure), strict=True):
         for element in COLOURS:
-            style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}
-            for family, look in (("smooth", "-"), ("patch", (0, (4, 2)))):
-                own = [
-                    r
-                    for r in errors
-                    if (r["element"], r["family"]) == (element, family) and r[norm] > 0
-                ]
-                label = f"{NAMES[element]}, {'error' if family == 'smooth' else 'round-off'}"
-                axes.plot(
-                    [1 / r["n"] for r in own],
-                    [r[norm] for r in own],
-                    linestyle=look,
-                    label=label,
-                    **style,
-                )
-            exponent, factor = lines[element]
-            widths = [
-                1 / r["n"] for r in errors if (r["element"], r["family"]) == (element, "patch")
-            ]
-            bound = [EPS * factor * h**-exponent for h in widths]
-            label = f"eps times condition, {element}"
-            axes.plot(
-                widths,
-                bound,
-                color=COLOURS[element],
-                linewidth=0.6,
-                linestyle=(0, (1, 1.5)),
-                label=label,
-            )
-        levels = sorted({row["n"] for row in errors})
-        axes.set_xticks([1 / n for n in levels[::-2]], [f"1/{n:.0f}" for n in levels[::-2]])
+            own = [row for row in errors if row["element"] == element]
+            _draw_families(axes, own, element, norm)
+            _draw_condition(axes, own, element, lines[element])
+        axes.set_xticks([1 / n for n in labelled], [f"1/{n:.0f}" for n in labelled])
         axes.minorticks_off()
         axes.set(xlabel="mesh width $h$", title=title)
         axes.title.set_fontsize(8)
@@ -216,10 +176,27 @@ def draw_floor(errors, lines):
     return figure
 
 
+def _draw_families(axes, rows, element, norm):
+    style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}
+    for family, (name, line) in FAMILIES.items():
+        shown = [row for row in rows if row["family"] == family and row[norm] > 0]
+        widths, errors = [1 / row["n"] for row in shown], [row[norm] for row in shown]
+        label = f"{NAMES[element]}, {name}"
+        axes.plot(widths, errors, linestyle=line, label=label, **style)
+
+
+def _draw_condition(axes, rows, element, line):
+    widths = [1 / row["n"] for row in rows if row["family"] == "patch"]
+    bound = round_off_of_widths(widths, *line)
+    label = f"eps times condition, {element}"
+    axes.plot(widths, bound, color=COLOURS[element], label=label, **_DOTTED)
+
+
 @matplotlib.rc_context(SMALL)
 def draw_stretched(rows):
-    """Error of the patch test, stated accuracy, and eps times condition against the aspect of the
-    cells.
+    """Draw error of the patch test and stated accuracy against the aspect of the cells.
+
+    Beside them, eps times condition.
 
     Parameters
     ----------
@@ -235,28 +212,37 @@ def draw_stretched(rows):
     axes = figure.add_axes((0.13, 0.15, 0.84, 0.81), xscale="log", yscale="log")
     for element in dict.fromkeys(row["element"] for row in rows):
         own = [row for row in rows if row["element"] == element]
-        found = [row for row in own if row["error"]]
-        colour, x = COLOURS[element], [row["aspect"] for row in found]
-        filled = [colour if row["status"] == "solved" else "white" for row in found]
-        y = [row["error"] for row in found]
-        axes.plot(x, y, color=colour, label=f"{NAMES[element]}, error")
-        axes.scatter(x, y, 9, filled, MARKERS[element], edgecolors=colour, zorder=3)
-        stated = [row["accuracy"] for row in found]
-        axes.plot(
-            x,
-            stated,
-            color=colour,
-            linewidth=0.7,
-            linestyle=(0, (4, 2)),
-            label="accuracy as stated",
-        )
-        regular = [row for row in own if 0 < row["condition"] < 1 / EPS]
-        bound = [[row["aspect"], EPS * row["condition"]] for row in regular]
-        dotted = {"color": colour, "linewidth": 0.6, "linestyle": (0, (1, 1.5))}
-        axes.plot(*zip(*bound, strict=True), label="eps times condition", **dotted)
-    axes.axhline(1e-10, color=FAINT, linewidth=0.6, zorder=0)
-    place = {"xytext": (-2, 2), "textcoords": "offset points", "ha": "right"}
-    axes.annotate("solved below", (1.0, 1e-10), fontsize=6.5, color=GREY, **place)
+        _draw_patch_test(axes, [row for row in own if row["error"]], element)
+        bound = round_off_of_aspects(own)
+        axes.plot(*bound, color=COLOURS[element], label="eps times condition", **_DOTTED)
+    axes.axhline(SOLVED, color=FAINT, **_THIN)
+    axes.annotate(
+        "solved below",
+        (1.0, SOLVED),
+        (-2, 2),
+        textcoords="offset points",
+        fontsize=6.5,
+        color=GREY,
+        ha="right",
+    )
     axes.set(xlabel="height over width of the cells", ylabel="relative error")
     axes.legend(loc="upper right", handlelength=3)
     return figure
+
+
+def _draw_patch_test(axes, rows, element):
+    """Errors, hollow where the solve was inaccurate, and the accuracies stated, dashed."""
+    colour = COLOURS[element]
+    aspects = [row["aspect"] for row in rows]
+    errors, stated = [row["error"] for row in rows], [row["accuracy"] for row in rows]
+    fills = [colour if row["status"] == "solved" else "white" for row in rows]
+    axes.plot(aspects, errors, color=colour, label=f"{NAMES[element]}, error")
+    axes.scatter(aspects, errors, 9, fills, MARKERS[element], edgecolors=colour, zorder=3)
+    axes.plot(
+        aspects,
+        stated,
+        color=colour,
+        linewidth=0.7,
+        linestyle=_DASHED,
+        label="accuracy as stated",
+    )

@@ -10,9 +10,8 @@ from matplotlib.figure import Figure
 
 from signorini.storage import sealing
 
-TEXT_WIDTH = (
-    150 / 25.4
-)  # inches; \textwidth of paper/main.tex, so that figures are included unscaled
+MM = 1 / 25.4  # inches
+TEXT_WIDTH = 150 / 25.4  # inches; \textwidth of paper/main.tex: figures are included unscaled
 
 BLACK, GREY, FAINT = "black", "0.35", "0.75"
 ACCENT = "#2a6ebb"  # prints as a middle grey
@@ -21,6 +20,14 @@ ACCENT = "#2a6ebb"  # prints as a middle grey
 ELEMENT_STYLES = {
     "P1": {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "-"},
     "CR": {"color": ACCENT, "marker": "s", "linestyle": (0, (4, 2))},
+}
+
+# The marker of a critical point.
+CRITICAL = {
+    "markerfacecolor": "white",
+    "markeredgecolor": BLACK,
+    "markersize": 5.5,
+    "linestyle": "none",
 }
 
 STYLE = {
@@ -69,6 +76,28 @@ def new_figure(width, height):
         return Figure(figsize=(width, height), layout="none")
 
 
+def add_axes(figure, left, bottom, width, height, **options):
+    """Add axes at a place given in inches.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    left, bottom : float
+        Lower left corner, from that of the figure, in inches.
+    width, height : float
+        In inches.
+    **options
+        As for `matplotlib.figure.Figure.add_axes`.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    page_width, page_height = figure.get_size_inches()
+    place = (left / page_width, bottom / page_height, width / page_width, height / page_height)
+    return figure.add_axes(place, **options)
+
+
 def save_figure(figure, path, colours=None):
     """Write a figure as PDF or PNG (200 dpi): same figure, same bytes; never half a file.
 
@@ -102,14 +131,23 @@ def save_figure(figure, path, colours=None):
 def _save_reduced(figure, stream, colours):
     from PIL import Image
 
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png")
-    pixels = np.asarray(Image.open(picture).convert("RGB"), dtype=int)
-    found, place, count = np.unique(
+    pixels = _pixels(figure)
+    shades, place, count = np.unique(
         pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True
     )
-    palette = found[np.argsort(-count, kind="stable")[:colours]]
-    nearest = ((found[:, None] - palette) ** 2).sum(axis=2).argmin(axis=1).astype(np.uint8)
+    most_frequent_first = np.argsort(-count, kind="stable")
+    palette = shades[most_frequent_first[:colours]]
+    distances = ((shades[:, None] - palette) ** 2).sum(axis=2)
+    nearest = distances.argmin(axis=1).astype(np.uint8)
     reduced = Image.fromarray(nearest[place.ravel()].reshape(pixels.shape[:2]))
     reduced.putpalette(palette.astype(np.uint8).tobytes())
     reduced.save(stream, format="png", optimize=True)
+
+
+def _pixels(figure):
+    """Red, green and blue, shape (rows, columns, 3), each from 0 to 255."""
+    from PIL import Image
+
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png")
+    return np.asarray(Image.open(picture).convert("RGB"), dtype=int)

@@ -7,22 +7,43 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
-from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.figures.style import (
+    ACCENT,
+    BLACK,
+    CRITICAL,
+    FAINT,
+    GREY,
+    STYLE,
+    TEXT_WIDTH,
+    new_figure,
+)
+from signorini.report.contact_side import contact_side
 
-ELEVATION, AZIMUTH = np.radians(27), np.radians(-60)  # of the eye, which stands in front of y = y_0
+# Of the eye, which stands in front of y = y_0.
+ELEVATION, AZIMUTH = np.radians(27), np.radians(-60)
 HEIGHT = 0.62  # of the drawn box, whose base has sides of length 1
 MARGIN = 0.08  # between the surface and the floor, in heights of the surface
-TICK, NAME = 0.015, 0.16  # lengths of a tick and distance of an axis name, in sides of the base
-TICK_LABEL = (
-    (0.07, "center"),
-    (0.035, "left"),
-    (0.03, "right"),
-)  # distance and alignment on x, y, u
 
+# In sides of the base.
+TICK = 0.015  # length
+NAME = 0.16  # distance of an axis name
+TICK_LABEL = ((0.07, "center"), (0.035, "left"), (0.03, "right"))  # distance, alignment: x, y, u
+
+# The directions of the page in the space of the box: the projection is orthographic.
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0])
 UP = np.array(
-    [-np.cos(AZIMUTH) * np.sin(ELEVATION), -np.sin(AZIMUTH) * np.sin(ELEVATION), np.cos(ELEVATION)]
+    [
+        -np.cos(AZIMUTH) * np.sin(ELEVATION),
+        -np.sin(AZIMUTH) * np.sin(ELEVATION),
+        np.cos(ELEVATION),
+    ]
 )
+
+CONTACT = {
+    "free": ("contact side, free", {"color": ACCENT, "linewidth": 2}),
+    "binding": ("contact side, binding", {"color": BLACK, "linewidth": 2.8}),
+    "obstacle": ("obstacle", {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (4, 3))}),
+}
 
 
 @dataclass(frozen=True)
@@ -39,19 +60,42 @@ class Box:
     high: np.ndarray
 
     def image(self, x, y, z, shift=(0, 0, 0)):
-        """Return the page coordinates (..., 2) of points, moved by `shift` in units of the base."""
+        """Return the place of points on the page.
+
+        Parameters
+        ----------
+        x, y, z : array_like
+            Coordinates, of shapes that broadcast.
+        shift : sequence of float, optional
+            Moves all points, in sides of the base.
+
+        Returns
+        -------
+        ndarray, shape (..., 2)
+            In sides of the base.
+        """
         points = np.stack(np.broadcast_arrays(x, y, z), axis=-1)
         unit = (points - self.low) / (self.high - self.low) * (1, 1, HEIGHT)
         return (unit + shift) @ np.stack([RIGHT, UP], axis=1)
 
     def lines(self, *paths):
-        """Return the images of `paths`, each a list of corners such as "011": 0 is low and 1 is
-        high.
+        """Return the images of lines through corners.
+
+        Parameters
+        ----------
+        *paths : list of str
+            Corners such as "011", a digit for each of x, y and u: 0 is low and 1 is high.
+
+        Returns
+        -------
+        list of ndarray, shape (k, 2)
         """
-        corners = np.stack([self.low, self.high])
-        return [
-            self.image(*([corners[int(c[k]), k] for c in path] for k in range(3))) for path in paths
-        ]
+        return [self._line(path) for path in paths]
+
+    def _line(self, path):
+        ends = np.stack([self.low, self.high])
+        x, y, z = ([ends[int(corner[k]), k] for corner in path] for k in range(3))
+        return self.image(x, y, z)
 
 
 @matplotlib.rc_context(STYLE)
@@ -63,9 +107,8 @@ def draw_surface(surface):
     surface : mapping of str to ndarray
         ``x`` (m,), ``y`` (k,) and ``u`` (k, m), u[j, i] at (x_i, y_j); ``contact_x`` and
         ``contact_u`` (p,) along the contact side; ``critical_points`` (c, 2). An obstacle other
-        than zero is given as
-        ``contact_obstacle`` (p,); where ``contact_u`` does not exceed it, it binds. All
-        dimensionless.
+        than zero is given as ``contact_obstacle`` (p,); where ``contact_u`` does not exceed it, it
+        binds. All dimensionless.
 
     Returns
     -------
@@ -73,17 +116,23 @@ def draw_surface(surface):
     """
     figure = new_figure(0.86 * TEXT_WIDTH, 0.57 * TEXT_WIDTH)
     axes = figure.add_axes((0, 0.08, 1, 0.92), aspect="equal", frame_on=False, xticks=[], yticks=[])
-    x, y, u = surface["x"], surface["y"], surface["u"]
-    height = np.ptp(u) or 1.0  # a solution may be flat
-    floor = u.min() - MARGIN * height
-    box = Box(np.array([x[0], y[0], floor]), np.array([x[-1], y[-1], u.min() + height]))
+    box = _box_around(surface)
     _draw_box(axes, box)
-    _draw_wires(axes, box.image(x, y[:, None], u))
-    _draw_contact(axes, box, surface)
+    _draw_wires(axes, box.image(surface["x"], surface["y"][:, None], surface["u"]))
+    side = contact_side(surface)
+    _draw_contact(axes, box, side, surface["y"][0])
+    _draw_critical_points(axes, box, side["points"])
     axes.autoscale_view()
     axes.margins(0.02)
     figure.legend(loc="lower center", ncols=4, handlelength=2, columnspacing=1.6, borderaxespad=0)
     return figure
+
+
+def _box_around(surface):
+    x, y, u = surface["x"], surface["y"], surface["u"]
+    height = np.ptp(u) or 1.0  # a solution may be flat
+    floor = u.min() - MARGIN * height
+    return Box(np.array([x[0], y[0], floor]), np.array([x[-1], y[-1], u.min() + height]))
 
 
 def _draw_box(axes, box):
@@ -98,52 +147,55 @@ def _draw_box(axes, box):
 
 
 def _draw_axis(axes, box, k, name, place, outward):
-    """Put ticks, their values and a name along the edge of the box that `place` runs through."""
+    """Put ticks, their values and a name along an edge of the box.
+
+    `place` maps a coordinate to its point of the edge; `outward` points away from the box.
+    """
     low, high, outward = box.low[k], box.high[k], np.array(outward)
     ticks = [t for t in MaxNLocator(5).tick_values(low, high) if low <= t <= high]
     lines = [[box.image(*place(t)), box.image(*place(t), TICK * outward)] for t in ticks]
     axes.add_collection(LineCollection(lines, color=BLACK, linewidth=0.5))
     distance, align = TICK_LABEL[k]
     for t in ticks:
-        at = box.image(*place(t), distance * outward)
-        axes.text(*at, f"${t:.4g}$", fontsize=8, ha=align, va="center")
-    axes.text(*box.image(*place((low + high) / 2), NAME * outward), name, ha="center", va="center")
+        x, y = box.image(*place(t), distance * outward)
+        axes.text(x, y, f"${t:.4g}$", fontsize=8, ha=align, va="center")
+    x, y = box.image(*place((low + high) / 2), NAME * outward)
+    axes.text(x, y, name, ha="center", va="center")
 
 
 def _draw_wires(axes, points):
-    """Paint the cells from the back to the front: each white face hides what lies behind it."""
-    cells = np.stack([points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]], axis=2)
-    back_to_front = cells[::-1].reshape(-1, 4, 2)  # y grows away from the eye, x towards it
+    """Paint the cells from the back to the front: each white face hides what lies behind it.
+
+    `points` has the shape (rows, columns, 2): y grows away from the eye, and x towards it.
+    """
+    lower, upper = points[:-1], points[1:]
+    corners = [lower[:, :-1], lower[:, 1:], upper[:, 1:], upper[:, :-1]]
+    cells = np.stack(corners, axis=2)
+    back_to_front = cells[::-1].reshape(-1, 4, 2)
     wires = PolyCollection(
-        back_to_front, facecolor="white", edgecolor=GREY, linewidth=0.3, zorder=3
+        back_to_front,
+        facecolor="white",
+        edgecolor=GREY,
+        linewidth=0.3,
+        zorder=3,
     )
     axes.add_collection(wires)
 
 
-def _draw_contact(axes, box, surface):
-    x, u, y = surface["contact_x"], surface["contact_u"], surface["y"][0]
-    obstacle = surface.get("contact_obstacle", np.zeros_like(u))
-    binding = u <= obstacle
-    free, bound = np.where(binding, np.nan, u), np.where(binding, u, np.nan)
-    styles = {
-        "contact side, free": (free, {"color": ACCENT, "linewidth": 2}),
-        "contact side, binding": (bound, {"color": BLACK, "linewidth": 2.8}),
-        "obstacle": (obstacle, {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (4, 3))}),
-    }
-    for label, (height, style) in styles.items():
-        axes.plot(*box.image(x, y, height).T, label=label, zorder=4, **style)
-    marker = {
-        "markerfacecolor": "white",
-        "markeredgecolor": BLACK,
-        "markersize": 5.5,
-        "linestyle": "none",
-    }
-    for k, (px, py) in enumerate(surface["critical_points"]):
-        point = box.image(px, py, np.interp(px, x, obstacle))
-        axes.plot(*point, "o", zorder=5, label="_" if k else "critical point", **marker)
+def _draw_contact(axes, box, side, y):
+    for part, (label, style) in CONTACT.items():
+        line = box.image(side["x"], y, side[part])
+        axes.plot(*line.T, label=label, zorder=4, **style)
+
+
+def _draw_critical_points(axes, box, points):
+    for k, (x, y, height) in enumerate(points):
+        place = box.image(x, y, height)
+        label = "_" if k else "critical point"  # one entry of the legend is enough
+        axes.plot(*place, "o", zorder=5, label=label, **CRITICAL)
         axes.annotate(
-            f"$x = {px:.3f}$",
-            point,
+            f"$x = {x:.3f}$",
+            place,
             (-2, -7),
             textcoords="offset points",
             ha="center",

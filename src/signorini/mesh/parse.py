@@ -67,6 +67,8 @@ def _reason(error):
 
 
 def _remedy(error):
+    # Of a file whose groups leave cells out meshio says so by a plain ValueError: the text alone
+    # tells it from others.
     if "Incompatible cell data" in str(error):
         return "put all cells into physical groups, or none"
     return "export the mesh again, for instance as .msh 4.1"

@@ -1,3 +1,1 @@
-"""From numbers to what is read: tables, macros, comparison with published numbers, the typeset
-paper, VTU files.
-"""
+"""From numbers to what is read: tables, macros, the check against a paper, the paper, VTU files."""

@@ -1,8 +1,11 @@
 """Published numbers against computed ones."""
 
+from dataclasses import dataclass
 from decimal import Decimal
 
 from signorini.exceptions import SignoriniError
+
+EXACT = Decimal("0.5")  # units of the last printed digit: up to here all printed digits agree
 
 
 def compare(published, errors, rates):
@@ -26,25 +29,41 @@ def compare(published, errors, rates):
     ------
     SignoriniError
         If a published number has no computed counterpart.
+
+    Examples
+    --------
+    >>> published = {"cell": "l2 P1 n=2", "quantity": "error", "norm": "l2", "element": "P1"}
+    >>> published |= {"n": "2", "value": "0.101", "unit": "0.001", "tolerance": "1"}
+    >>> errors = [{"element": "P1", "n": "2", "l2": "0.1014", "h1": ""}]
+    >>> compare([published], errors, [])[0]["units"]
+    '0.400'
     """
-    computed = {
+    computed = _errors_by_key(errors) | _slopes_by_key(rates)
+    return [_row(number, computed) for number in published]
+
+
+def _errors_by_key(errors):
+    return {
         ("error", norm, row["element"], row["n"]): row[norm]
         for row in errors
         for norm in ("l2", "h1")
     }
-    computed |= {
+
+
+def _slopes_by_key(rates):
+    return {
         ("slope", row["norm"], row["element"], ""): row["slope"]
         for row in rates
         if row["kind"] == "mean"
     }
-    return [_row(number, computed) for number in published]
 
 
 def _row(number, computed):
     key = (number["quantity"], number["norm"], number["element"], number["n"])
     if not computed.get(key):
         raise SignoriniError(
-            f"check: {number['cell']} was not computed; restore levels, elements and norms of the scene"
+            f"check: {number['cell']} was not computed; "
+            "restore levels, elements and norms of the scene"
         )
     units = (Decimal(computed[key]) - Decimal(number["value"])) / Decimal(number["unit"])
     return {
@@ -57,26 +76,111 @@ def _row(number, computed):
 
 
 def verdict(rows, source):
-    """One line that says how well the published numbers were met.
+    """Say in one line how well the published numbers were met.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        What `compare` returned, numbers or text.
+    source : str or Path
+        The file to name in errors.
+
+    Returns
+    -------
+    str
 
     Raises
     ------
     SignoriniError
         If a row is not ok: naming each such cell and its distance.
     """
-    wrong = [row for row in rows if not int(row["ok"])]
-    if wrong:
-        cells = "; ".join(
-            f"{row['cell']}: published {row['published']}, computed {row['computed']}, {row['units']} units off"
-            for row in wrong
-        )
-        raise SignoriniError(
-            f"{source}: {len(wrong)} of {len(rows)} published numbers not met: {cells}"
-        )
+    _refuse_missed(rows, source)
+    summary = check_summary(rows)
     errors = [row for row in rows if not row["cell"].endswith("slope")]
-    exact = sum(abs(Decimal(row["units"])) <= Decimal("0.5") for row in errors)
-    worst = max(rows, key=lambda row: abs(Decimal(row["units"])))
+    worst = max(rows, key=_distance)
     return (
-        f"all {len(rows)} published numbers met, {exact} of {len(errors)} errors to the last printed digit; "
-        f"largest distance {worst['units']} units of the last digit ({worst['cell']})"
+        f"all {summary.total} published numbers met, {_count_exact(errors)} of {len(errors)} "
+        f"errors to the last printed digit; largest distance {worst['units']} units of the "
+        f"last digit ({worst['cell']})"
     )
+
+
+def _refuse_missed(rows, source):
+    missed = [row for row in rows if not _is_met(row)]
+    if not missed:
+        return
+    cells = "; ".join(
+        f"{row['cell']}: published {row['published']}, computed {row['computed']}, "
+        f"{row['units']} units off"
+        for row in missed
+    )
+    raise SignoriniError(
+        f"{source}: {len(missed)} of {len(rows)} published numbers not met: {cells}"
+    )
+
+
+@dataclass(frozen=True)
+class CheckSummary:
+    """How many published numbers were met, and the largest deviation in units of the last digit."""
+
+    total: int
+    matched: int
+    exact: int
+    largest: float
+    largest_cell: str
+
+    def __str__(self):
+        return (
+            f"{self.matched} of {self.total} published numbers matched, "
+            f"{self.exact} of them in every digit; largest deviation {self.largest:.2f} "
+            f"units of the last digit ({self.largest_cell})"
+        )
+
+
+def check_summary(check):
+    """Sum up the rows of ``check.csv``.
+
+    Parameters
+    ----------
+    check : sequence of mapping
+        Rows with ``cell``, ``units`` (deviation in units of the last printed digit) and ``ok``.
+
+    Returns
+    -------
+    CheckSummary
+        A number is exact if it is at most half a unit off.
+
+    Raises
+    ------
+    ValueError
+        If there are no rows.
+
+    Examples
+    --------
+    >>> summary = check_summary([{"cell": "a", "units": "-0.68", "ok": 1}])
+    >>> summary.matched, summary.exact, summary.largest
+    (1, 0, 0.68)
+    """
+    if not check:
+        raise ValueError("check: no published number was compared")
+    worst = max(check, key=_distance)
+    return CheckSummary(
+        total=len(check),
+        matched=sum(map(_is_met, check)),
+        exact=_count_exact(check),
+        largest=float(_distance(worst)),
+        largest_cell=worst["cell"],
+    )
+
+
+def _count_exact(rows):
+    return sum(_distance(row) <= EXACT for row in rows)
+
+
+def _distance(row):
+    """From the published number, in units of its last printed digit."""
+    return abs(Decimal(str(row["units"])))
+
+
+def _is_met(row):
+    return str(row["ok"]).lower() in ("true", "1")

@@ -35,7 +35,7 @@ import jinja2
 
 from signorini.report import quantities
 from signorini.report.macros import ESCAPES
-from signorini.report.tables import percent
+from signorini.report.rounding import percent
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]
@@ -126,7 +126,23 @@ def render(template, layout, **slots):
 
 
 def render_text(text, layout, **slots):
-    r"""Fill the slots of a template given as text and render it; see `render`.
+    r"""Fill the slots of a template given as text and render it.
+
+    Parameters
+    ----------
+    text : str
+        The template.
+    layout, **slots
+        As for `render`.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    jinja2.UndefinedError, KeyError
+        As for `render`.
 
     Examples
     --------
@@ -191,7 +207,23 @@ def _block(text):
 
 
 def latex_text(text, known=None):
-    """A text in the markup of pages as LaTeX; `known` maps the names it may refer to to blocks."""
+    """Return a text in the markup of pages as LaTeX.
+
+    Parameters
+    ----------
+    text : str
+    known : dict, optional
+        Name of a figure or table that the text may refer to -> its `Block`.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    KeyError
+        If the text refers to a name that is not known.
+    """
     parts = _VERBATIM.split(text)
     parts[::2] = map(_latex_words, parts[::2])
     for k, part in enumerate(parts[1::2]):
@@ -220,7 +252,22 @@ def _power_of_ten(found):
 
 
 def markdown_text(text, known=None):
-    """The same as Markdown, where only references are changed."""
+    """Return a text in the markup of pages as Markdown, where only references are changed.
+
+    Parameters
+    ----------
+    text, known
+        As for `latex_text`.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    KeyError
+        If the text refers to a name that is not known.
+    """
     parts = _VERBATIM.split(text)
     for k, part in enumerate(parts):
         if k % 2 and part.startswith("@"):

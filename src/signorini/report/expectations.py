@@ -32,36 +32,51 @@ def check_expectations(expected, errors, rates, source):
     ------
     SignoriniError
         Listing all that is off.
+
+    Examples
+    --------
+    >>> rates = [{"element": "P1", "norm": "l2", "slope": 1.96}]
+    >>> check_expectations({"slopes": {"l2": 2}, "tolerance": 0.1}, [], rates, "errors.csv")
+    'as expected: P1 l2 1.96'
     """
     rates = [row for row in rates if row["norm"] in expected["slopes"]]
-    wrong = [
-        f"{row['element']} {row['norm']} {_NO_SLOPE[trouble_of(row)]}"
-        for row in rates
-        if trouble_of(row) != SOUND
-    ]
-    near = f"within {expected['tolerance']:g}"
-    wrong += [
-        f"{row['element']} {row['norm']} slope {row['slope']:.3f}, expected {expected['slopes'][row['norm']]:g} {near}"
-        for row in rates
-        if trouble_of(row) == SOUND
-        and not abs(row["slope"] - expected["slopes"][row["norm"]]) <= expected["tolerance"]
-    ]
-    bound = expected.get("errors_below", float("inf"))
     sizes = [
         (float(row[norm]), row["element"], row["n"], norm)
         for row in errors
         for norm in RATED
         if row.get(norm)
     ]
-    wrong += [
-        f"{element} n = {n} {norm} error {size:.2e}, expected below {bound:g}"
-        for size, element, n, norm in sizes
-        if not size < bound
-    ]
+    bound = expected.get("errors_below", float("inf"))
+    wrong = [*_no_slopes(rates), *_wrong_slopes(rates, expected), *_large_errors(sizes, bound)]
     if wrong:
-        found = "; ".join(wrong)
         raise SignoriniError(
-            f"{source}: not as the scene expects: {found}; correct the scene, or its section expect"
+            f"{source}: not as the scene expects: {'; '.join(wrong)}; "
+            "correct the scene, or its section expect"
         )
-    found = [f"{row['element']} {row['norm']} {row['slope']:.2f}" for row in rates]
-    return "as expected: " + (", ".join(found) if found else f"largest error {max(sizes)[0]:.1e}")
+    slopes = [f"{row['element']} {row['norm']} {row['slope']:.2f}" for row in rates]
+    return f"as expected: {', '.join(slopes) or f'largest error {max(sizes)[0]:.1e}'}"
+
+
+def _no_slopes(rates):
+    for row in rates:
+        trouble = trouble_of(row)
+        if trouble != SOUND:
+            yield f"{row['element']} {row['norm']} {_NO_SLOPE[trouble]}"
+
+
+def _wrong_slopes(rates, expected):
+    tolerance = expected["tolerance"]
+    for row in rates:
+        slope = expected["slopes"][row["norm"]]
+        # "not <=", so that NaN is wrong, too.
+        if trouble_of(row) == SOUND and not abs(row["slope"] - slope) <= tolerance:
+            yield (
+                f"{row['element']} {row['norm']} slope {row['slope']:.3f}, "
+                f"expected {slope:g} within {tolerance:g}"
+            )
+
+
+def _large_errors(sizes, bound):
+    for size, element, n, norm in sizes:
+        if not size < bound:
+            yield f"{element} n = {n} {norm} error {size:.2e}, expected below {bound:g}"

@@ -1,6 +1,4 @@
-"""What a figure of any scene shows: u on a triangulation of bearable size, and what happens on its
-boundary.
-"""
+"""What a figure shows of any scene: u on not too many triangles, and the state of the boundary."""
 
 import numpy as np
 
@@ -11,7 +9,7 @@ from signorini.mesh.paths import boundary_paths
 
 
 def field_of(mesh, solution, most_triangles=20000):
-    """The numbers that a figure of a solution shows.
+    """Return the numbers that a figure of a solution shows.
 
     Parameters
     ----------
@@ -33,28 +31,36 @@ def field_of(mesh, solution, most_triangles=20000):
         ``critical_points`` (c, 2); ``binding`` (m, 2, 2), start and end (x, y) of the pieces of
         contact facets that bind, in the same order.
     """
-    shown, values = _coarsened(
-        mesh, find_element(solution.element).vertex_values(mesh, solution.u), most_triangles
-    )
+    values = find_element(solution.element).vertex_values(mesh, solution.u)
+    shown, values = _coarsened(mesh, values, most_triangles)
+    edges = {f"edges_{label}": _edges(shown, label) for label in LABELS}
     return {
         "p": shown.p,
         "t": shown.t,
         "values": values,
         "range": np.array([solution.u.min(), solution.u.max()]),
-        **{f"edges_{label}": _edges(shown, label) for label in LABELS},
+        **edges,
         "critical_points": contact_line(mesh, solution)["critical_points"],
         "binding": binding_pieces(mesh, solution),
     }
 
 
 def _coarsened(mesh, values, most_triangles):
-    while mesh.number_of_triangles > most_triangles and (coarser := mesh.coarser()) is not None:
-        family = mesh.vertex_children(values)
-        values = np.stack([family[k, k] for k in range(3)])  # child k keeps vertex k of its parent
+    while mesh.number_of_triangles > most_triangles:
+        coarser = mesh.coarser()
+        if coarser is None:
+            break
+        children = mesh.vertex_children(values)
+        values = np.stack(
+            [children[k, k] for k in range(3)]
+        )  # child k keeps corner k of its parent
         mesh = coarser
     return mesh, values
 
 
 def _edges(mesh, label):
+    """End points (2, k) of the facets of a label, path after path."""
     paths = [path.vertices for path in boundary_paths(mesh, label)]
-    return np.concatenate([np.zeros((2, 0), int), *([v[:-1], v[1:]] for v in paths)], axis=1)
+    facets = [[vertices[:-1], vertices[1:]] for vertices in paths]
+    none = np.zeros((2, 0), int)
+    return np.concatenate([none, *facets], axis=1)

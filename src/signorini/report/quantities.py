@@ -29,7 +29,18 @@ def factor(value):
 
 
 def fixed(value, form):
-    """A number in a format of Python, such as ``".1e"``; two dashes where there is none."""
+    """A number in a format of Python; two dashes where there is none.
+
+    Parameters
+    ----------
+    value : float or None
+    form : str
+        Such as ``".1e"``.
+
+    Returns
+    -------
+    str
+    """
     return "--" if value is None or value != value else format(value, form)
 
 

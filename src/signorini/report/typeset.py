@@ -15,6 +15,14 @@ _TROUBLE = re.compile(
     re.M,
 )
 _PAGES = re.compile(r"Output written on .*?\((\d+) pages?")
+_ENVIRONMENT = {
+    # A fixed date makes the same input the same PDF.
+    "SOURCE_DATE_EPOCH": "1167609600",
+    "FORCE_SOURCE_DATE": "1",
+    # TeX breaks the lines of its log elsewhere, in the middle of words.
+    "max_print_line": "1000",
+}
+_LATEXMK = ("latexmk", "-norc", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "-silent")
 
 
 def typeset(source, parts, output):
@@ -44,37 +52,37 @@ def typeset(source, parts, output):
         folder = Path(folder)
         for path in (source, *parts):
             shutil.copy(path, folder)
-        name = Path(source).stem
-        # A fixed date makes the same input the same PDF.
-        environment = os.environ | {
-            "SOURCE_DATE_EPOCH": "1167609600",
-            "FORCE_SOURCE_DATE": "1",
-            "max_print_line": "1000",
-        }
-        command = [
-            "latexmk",
-            "-norc",
-            "-pdf",
-            "-interaction=nonstopmode",
-            "-halt-on-error",
-            "-silent",
-            f"{name}.tex",
-        ]
-        result = subprocess.run(
-            command, cwd=folder, env=environment, capture_output=True, check=False
-        )
-        log = folder / f"{name}.log"
-        text = log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
-        trouble = _TROUBLE.search(text)
-        if result.returncode or trouble or not (folder / f"{name}.pdf").is_file():
-            said = (
-                trouble.group(0)
-                if trouble
-                else result.stderr.decode(errors="replace").strip()[-300:]
-            )
-            raise SignoriniError(
-                f"{source}: LaTeX: {said or 'failed without a message'}; mend the source or install what is missing"
-            )
+        pdf = folder / f"{Path(source).stem}.pdf"
+        result = _latexmk(folder, f"{Path(source).stem}.tex")
+        log = _log_of(pdf)
+        trouble = _TROUBLE.search(log)
+        if result.returncode or trouble or not pdf.is_file():
+            raise SignoriniError(_complaint(source, trouble, result))
         with replacing(output, "wb") as stream:
-            stream.write((folder / f"{name}.pdf").read_bytes())
-        return int(_PAGES.search(text.replace("\n", "")).group(1))
+            stream.write(pdf.read_bytes())
+        return int(_PAGES.search(log.replace("\n", "")).group(1))
+
+
+def _latexmk(folder, name):
+    return subprocess.run(
+        [*_LATEXMK, name],
+        cwd=folder,
+        env=os.environ | _ENVIRONMENT,
+        capture_output=True,
+        check=False,
+    )
+
+
+def _log_of(pdf):
+    log = pdf.with_suffix(".log")
+    return log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
+
+
+def _complaint(source, trouble, result):
+    """What LaTeX says, or where it has no words, the end of what latexmk says."""
+    last_words = result.stderr.decode(errors="replace").strip()[-300:]
+    said = trouble.group(0) if trouble else last_words
+    return (
+        f"{source}: LaTeX: {said or 'failed without a message'}; "
+        "mend the source or install what is missing"
+    )

@@ -37,6 +37,21 @@ def write_vtu(path, mesh, solution):
     """
     import meshio
 
+    content = _content(mesh, solution)
+    folder, name = Path(path).parent, Path(path).name
+    with (
+        replacing(path, "wb") as stream,
+        tempfile.TemporaryDirectory(prefix=f".{name}.", dir=folder) as temporary,
+    ):
+        part = Path(temporary, "part.vtu")  # meshio writes to a path only
+        meshio.write(part, content)
+        stream.write(part.read_bytes())
+
+
+def _content(mesh, solution):
+    """A meshio.Mesh of the triangles and the boundary's lines."""
+    import meshio
+
     element = find_element(solution.element)
     values = element.vertex_values(mesh, solution.u)
     p, t, u = (_continuous if element.continuous else _broken)(mesh, values)
@@ -45,8 +60,8 @@ def write_vtu(path, mesh, solution):
     owners, lines = _boundary(mesh, t, np.concatenate(facets))
     gradient = np.zeros((mesh.number_of_triangles, 3))
     gradient[:, :2] = mesh.gradients(values).T
-    content = meshio.Mesh(
-        np.append(p, np.zeros((1, p.shape[1])), axis=0).T,
+    return meshio.Mesh(
+        np.append(p, np.zeros((1, p.shape[1])), axis=0).T,  # z = 0
         [("triangle", t.T), ("line", lines.T)],
         point_data={"u": u},
         cell_data={
@@ -54,17 +69,10 @@ def write_vtu(path, mesh, solution):
             "label": [np.zeros(len(gradient), labels.dtype), labels],
         },
     )
-    with (
-        replacing(path, "wb") as stream,
-        tempfile.TemporaryDirectory(prefix=f".{Path(path).name}.", dir=Path(path).parent) as folder,
-    ):
-        part = Path(folder, "part.vtu")
-        meshio.write(part, content)
-        stream.write(part.read_bytes())
 
 
 def _continuous(mesh, values):
-    """Points, triangles and values at the points of a function continuous at the vertices."""
+    """Points, triangles, and values at the points, of a function continuous at the vertices."""
     u = np.empty(mesh.number_of_vertices)
     u[mesh.t] = values
     return mesh.p, mesh.t, u
@@ -77,10 +85,9 @@ def _broken(mesh, values):
 
 
 def _boundary(mesh, t, facets):
-    """The triangle behind each boundary facet, and the facet's end points numbered as in the
-    triangles `t`.
-    """
+    """The triangle behind each boundary facet, and the facet's ends numbered as in `t`."""
     place = np.empty(mesh.number_of_facets, dtype=int)
+    # Row k, column j of t2f is facet k of triangle j: flattened, its place is k nt + j.
     place[mesh.t2f] = np.arange(mesh.t2f.size).reshape(3, -1)
     local, owners = np.divmod(place[facets], mesh.number_of_triangles)
     return owners, t[_FACET_CORNERS[:, local], owners]

@@ -17,6 +17,10 @@ _NESTED = ("falling", "rising")
 def check_document(document):
     """Check a schema-valid document whose defaults are filled in.
 
+    Parameters
+    ----------
+    document : dict
+
     Raises
     ------
     SceneError, FormulaError
@@ -26,12 +30,14 @@ def check_document(document):
     _check_boundary(document["boundary"], _part_names(document["domain"]))
     if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
         raise SceneError(
-            "data.coefficient: only a mesh file has subdomains; give a number or a formula in x and y"
+            "data.coefficient: only a mesh file has subdomains; "
+            "give a number or a formula in x and y"
         )
     _check_levels(document["levels"])
     _check_truth(document)
     _check_cells(document)
     _check_outputs(document)
+    _check_norms(document)
 
 
 def check_critical_points(document, exact):
@@ -45,15 +51,17 @@ def check_critical_points(document, exact):
     Raises
     ------
     SceneError
+        Saying where they would be named.
     """
-    if "critical_points" in document["norms"] and not exact.critical_points:
-        family = document["truth"].get("family")
-        remedy = (
-            f"the family {family} has none; drop critical_points from norms"
-            if family
-            else "list them in truth.critical_points, [[x, y], ...], or drop critical_points from norms"
-        )
-        raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
+    if "critical_points" not in document["norms"] or exact.critical_points:
+        return
+    remedy = "drop critical_points from norms"
+    family = document["truth"].get("family")
+    if family:
+        remedy = f"the family {family} has none; {remedy}"
+    else:
+        remedy = f"list them in truth.critical_points, [[x, y], ...], or {remedy}"
+    raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
 
 
 def _check_rectangle(domain):
@@ -93,6 +101,7 @@ _DOMAIN_CHECKS = {
 
 def _check_finite(field, values):
     for value in values:
+        # The second condition catches whole numbers beyond what a double can hold.
         if not abs(value) < math.inf or abs(value) > sys.float_info.max:
             raise SceneError(f"{field}: {shown(value)} is not valid; it must be finite")
 
@@ -110,7 +119,12 @@ def _part_names(domain):
 def _check_boundary(boundary, names):
     if by_formula(boundary):
         _check_boundary_formulas(boundary)
-        return
+    else:
+        _check_boundary_labels(boundary, names)
+
+
+def _check_boundary_labels(boundary, names):
+    """Part of the boundary -> its label."""
     for name, label in boundary.items():
         if names is not None and name not in names:
             raise SceneError(
@@ -128,25 +142,32 @@ def _check_boundary(boundary, names):
 
 
 def _check_boundary_formulas(boundary):
-    rest = [label for label, text in boundary.items() if text == "rest"]
+    """Label -> the formula that says where it is."""
     if any(name in LABELS and label in LABELS for name, label in boundary.items()):
-        name, label = next(item for item in boundary.items() if item[1] not in LABELS)
-        raise SceneError(
-            f"boundary.{name}: {shown(label)} is no label, but other values are; {nearest(label, LABELS)}; or, if "
-            "no part of the boundary has a label for its name, give every label a formula"
-        )
+        _refuse_misspelt_label(boundary)
     for label, text in boundary.items():
         if label not in LABELS:
             raise SceneError(
-                f"boundary.{label}: no label; either every key is one of {', '.join(LABELS)} and has a formula, "
-                "or every key names a part of the boundary"
+                f"boundary.{label}: no label; either every key is one of {', '.join(LABELS)} "
+                "and has a formula, or every key names a part of the boundary"
             )
         if text != "rest":
             Formula(text, f"boundary.{label}")
+    rest = [label for label, text in boundary.items() if text == "rest"]
     if len(rest) > 1:
         raise SceneError(
             f"boundary: {' and '.join(rest)} are both rest; one label at most can take what is left"
         )
+
+
+def _refuse_misspelt_label(boundary):
+    """Parts with the names of labels: one value is meant to be a label, but is none."""
+    name, label = next(item for item in boundary.items() if item[1] not in LABELS)
+    raise SceneError(
+        f"boundary.{name}: {shown(label)} is no label, but other values are; "
+        f"{nearest(label, LABELS)}; or, if no part of the boundary has a label for its name, "
+        "give every label a formula"
+    )
 
 
 def _check_levels(levels):
@@ -164,20 +185,26 @@ def _check_truth(document):
         raise SceneError("truth: an exact truth needs either u, a formula, or family, a name")
     if truth["kind"] == "reference":
         _check_reference(levels, truth)
-        if domain["kind"] == "rectangle" and domain["diagonal"] not in _NESTED:
-            raise SceneError(
-                f"domain.diagonal: levels of {domain['diagonal']} diagonals do not nest in a reference; "
-                "use falling or rising, or an exact truth"
-            )
-        for key in ("grade", "perturb"):
-            if key in domain and domain["kind"] == "rectangle":
-                raise SceneError(
-                    f"domain.{key}: the levels do not nest in a reference; drop it, or use an exact truth"
-                )
+        if domain["kind"] == "rectangle":
+            _check_nesting(domain)
     if domain["kind"] != "rectangle":
         for n in levels:
-            _check_power(
-                n, levels[0], f"levels: {n} is no uniform refinement of the coarsest, {levels[0]}"
+            complaint = f"levels: {n} is no uniform refinement of the coarsest, {levels[0]}"
+            _check_power(n, levels[0], complaint)
+
+
+def _check_nesting(rectangle):
+    """Refuse patterns whose levels do not nest in a reference."""
+    if rectangle["diagonal"] not in _NESTED:
+        raise SceneError(
+            f"domain.diagonal: levels of {rectangle['diagonal']} diagonals do not nest in a "
+            "reference; use falling or rising, or an exact truth"
+        )
+    for key in ("grade", "perturb"):
+        if key in rectangle:
+            raise SceneError(
+                f"domain.{key}: the levels do not nest in a reference; "
+                "drop it, or use an exact truth"
             )
 
 
@@ -186,17 +213,19 @@ def _check_reference(levels, truth):
         raise SceneError("truth.n: missing; give the level of the reference, for instance 512")
     if truth["n"] < levels[-1]:
         raise SceneError(
-            f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; raise truth.n"
+            f"levels: {levels[-1]} is finer than the reference, truth.n = {truth['n']}; "
+            "raise truth.n"
         )
     for n in levels:
-        _check_power(
-            truth["n"], n, f"levels: {n} does not nest in the reference, truth.n = {truth['n']}"
-        )
+        complaint = f"levels: {n} does not nest in the reference, truth.n = {truth['n']}"
+        _check_power(truth["n"], n, complaint)
 
 
 def _check_power(fine, coarse, complaint):
+    """Refuse a level that is not a coarser one times a power of two."""
     ratio, rest = divmod(fine, coarse)
-    if rest or ratio & (ratio - 1):
+    is_power_of_two = ratio & (ratio - 1) == 0  # it has one bit
+    if rest or not is_power_of_two:
         near = coarse * 2 ** max(0, round(math.log2(fine / coarse)))
         raise SceneError(
             f"{complaint}; the finer one must be {coarse} times a power of two, for instance {near}"
@@ -205,14 +234,17 @@ def _check_power(fine, coarse, complaint):
 
 def _check_cells(document):
     """Every level and the reference must cut the sides of a rectangle into whole cells."""
-    domain, truth = document["domain"], document["truth"]
-    if domain["kind"] == "rectangle":
-        for n in [*document["levels"], *([truth["n"]] if truth["kind"] == "reference" else [])]:
-            count_cells(domain["size"], domain["cells"], n)
+    domain, truth, levels = document["domain"], document["truth"], document["levels"]
+    if domain["kind"] != "rectangle":
+        return
+    if truth["kind"] == "reference":
+        levels = [*levels, truth["n"]]
+    for n in levels:
+        count_cells(domain["size"], domain["cells"], n)
 
 
 def _check_outputs(document):
-    kind, outputs, norms = document["truth"]["kind"], document["outputs"], document["norms"]
+    kind, outputs = document["truth"]["kind"], document["outputs"]
     for output in ("errors", "rates", "table"):
         if output in outputs and kind == "none":
             raise SceneError(
@@ -223,6 +255,10 @@ def _check_outputs(document):
             raise SceneError(
                 f"outputs: {output} needs two levels for a slope; add a level, or drop {output}"
             )
+
+
+def _check_norms(document):
+    kind, norms = document["truth"]["kind"], document["norms"]
     contact_norms = [norm for norm in norms if norm in CONTACT]
     if contact_norms and kind != "exact":
         raise SceneError(

@@ -1,11 +1,14 @@
-"""Whether a level fits this machine, judged before any work on it, from its domain, element and
-route.
+"""Whether a level fits this machine, judged before any work on it.
 
-Meshes and routes judge for themselves too, but not before all that they start from has been made.
+All that is known of a level then is its domain, element and route. Meshes and routes judge for
+themselves too, but not before all that they start from has been made.
 """
 
 from signorini.exceptions import MeshError
-from signorini.memory import ROUTES, fits, shortage
+from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.memory import fits, shortage
+
+_ROUTES = ("fourier", "multigrid", "direct")  # the frugal first
 
 
 def check_level(statement, element, n, method, domain=None):
@@ -31,26 +34,29 @@ def check_level(statement, element, n, method, domain=None):
     """
     triangles = domain.count_triangles(n) if domain else _count_roughly(statement.domain, n)
     route = "multigrid" if method == "auto" else method
-    if fits(triangles, ROUTES[route][element]):
+    bytes_by = ELEMENT_FACTS[element].bytes_by
+    if fits(triangles, bytes_by(route)):
         return
-    others = [
-        other for other in ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
+    applicable = [
+        other for other in _ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
     ]
-    held = [other for other in others if fits(triangles, ROUTES[other][element])]
+    fitting = [other for other in applicable if fits(triangles, bytes_by(other))]
     if method == "auto":
-        if held:
+        if fitting:
             return
-        route = others[0]
-    remedy = f"set solver.method to {' or '.join(held)}, or " if held else ""
+        route = applicable[0]
+    missing = shortage(triangles, bytes_by(route))
+    remedy = f"set solver.method to {' or '.join(fitting)}, or " if fitting else ""
     raise MeshError(
-        f"levels: n = {n} for {element} by solver.method {method} {shortage(triangles, ROUTES[route][element])}; "
+        f"levels: n = {n} for {element} by solver.method {method} {missing}; "
         f"{remedy}choose smaller levels"
     )
 
 
 def _count_roughly(domain, n):
-    """Triangles of level n of a section ``domain``: twice its area in cells, which Netgen exceeds
-    by an eighth.
+    """Triangles of level n of a section ``domain``: twice its area in cells.
+
+    Netgen makes an eighth more.
     """
     kind = domain.get("kind", "rectangle")
     if kind == "mesh":
@@ -68,13 +74,12 @@ def _area(corners):
 
 
 def _fourier_applies(statement, element, n):
-    """Whether the fourier route solves this level: asked of a problem without data, on a grid that
-    costs nothing.
+    """Whether the fourier route solves this level.
+
+    It is asked of a problem without data, on a grid, which costs nothing.
     """
-    if (
-        statement.domain.get("kind", "rectangle") != "rectangle"
-        or not statement.triangulations.uniform
-    ):
+    is_rectangle = statement.domain.get("kind", "rectangle") == "rectangle"
+    if not is_rectangle or not statement.triangulations.uniform:
         return False
     if getattr(statement.data.coefficient, "constant", None) != 1.0:
         return False
@@ -83,5 +88,7 @@ def _fourier_applies(statement, element, n):
     from signorini.fem.problem import Problem
     from signorini.solvers.fourier import why_not
 
-    grid, values, dofs = statement.triangulations.level(n), np.zeros(0), np.zeros(0, dtype=int)
-    return why_not(Problem(element, grid, values, dofs, values, dofs, values)) is None
+    grid = statement.triangulations.level(n)
+    values, dofs = np.zeros(0), np.zeros(0, dtype=int)
+    problem = Problem(element, grid, values, dofs, values, dofs, values)
+    return why_not(problem) is None

@@ -44,18 +44,32 @@ def load_scene(path):
 
 
 def read_scene(path):
-    """As `load_scene`, without `Scene.check`: what the document alone shows is validated, and numpy
-    not imported.
+    """Read a scene file and check what the document alone shows; NumPy is not imported.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Scene
+        Whose `check` checks the rest.
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        As `load_scene`.
     """
     path = Path(path)
     check_name(path.stem)
     written = load_yaml(path)
     document = validated(written, scene_schema(), path)
-    if "outputs" not in written and document["truth"]["kind"] == "none":
+    truth = document["truth"]["kind"]
+    if truth == "none" and "outputs" not in written:
         document["outputs"] = []
     with naming(path):
         check_document(document)
-        if document["truth"]["kind"] != "exact":
+        if truth != "exact":  # else what is not given is derived
             document["data"] = dict.fromkeys(("g", "dirichlet", "obstacle"), 0) | document["data"]
         if document["domain"]["kind"] == "mesh":
             document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
@@ -66,7 +80,20 @@ def read_scene(path):
 
 
 def check_name(name):
-    """Refuse a scene name that could leave its folder or trouble a shell."""
+    """Refuse a scene name that could leave its folder or trouble a shell.
+
+    Raises
+    ------
+    SceneError
+        With the characters that a name may have.
+
+    Examples
+    --------
+    >>> check_name("l-shape")
+    >>> check_name("../paper")
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: scene name '../paper' is not valid; use 1 to 64 letters, ...
+    """
     if name in _RESERVED:
         raise SceneError(
             f"scene name {name!r}: results/{name} is used for other things; choose another name"
@@ -79,8 +106,9 @@ def check_name(name):
 
 
 def _mesh_file(file, scene_path):
-    """Path of the mesh file from the working folder; it must lie in the folder above that of the
-    scene.
+    """Path of the mesh file from the working folder.
+
+    It must lie in the folder above that of the scene.
     """
     from signorini.mesh.imported import resolve_mesh_path
 

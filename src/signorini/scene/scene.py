@@ -38,14 +38,18 @@ class Scene:
         return ProblemStatement.from_mapping(self.statement)
 
     def check(self):
-        """Check what only a triangulation shows, see `ProblemStatement.check`; errors name the
-        file.
+        """Check what only a triangulation shows; errors name the file.
+
+        Raises
+        ------
+        SceneError, MeshError
+            See `ProblemStatement.check`.
         """
         with naming(self.source):
             self.problem.check()
 
     def section(self, *keys):
-        """The named parts of the document, as a new dict."""
+        """The parts of the document with the names `keys`, as a new dict."""
         return {key: self.document[key] for key in keys}
 
     @property
@@ -57,9 +61,7 @@ class Scene:
 
     @property
     def warnings(self):
-        """What a user should know though the scene is valid: a list of lines, each of which names
-        its field.
-        """
+        """What a user should know though the scene is valid: lines that name their field."""
         measured = {"errors", "rates", "table"} & set(self.document["outputs"])
         return [f"truth.n: {self.reference_note}"] if measured and self.reference_note else []
 
@@ -81,7 +83,17 @@ class Scene:
 
 @contextmanager
 def naming(path):
-    """Let an error name the scene's file; one of storage names its own."""
+    """Let an error name the scene's file; one of storage names its own.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Raises
+    ------
+    SignoriniError
+        Of the kind that was raised in the block.
+    """
     try:
         yield
     except StorageError:

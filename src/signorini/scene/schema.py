@@ -1,6 +1,4 @@
-"""Validation of parsed YAML against a JSON schema, with defaults filled in and errors a person can
-act on.
-"""
+"""Validation of parsed YAML against a JSON schema: defaults filled in, errors a person can mend."""
 
 import copy
 from functools import cache
@@ -24,11 +22,18 @@ def validated(document, schema, source):
     Returns
     -------
     dict
+        A copy of the document with every default filled in.
 
     Raises
     ------
     SceneError
         One line that names the file, the field, the value and the remedy.
+
+    Examples
+    --------
+    >>> schema = {"properties": {"n": {"type": "integer", "default": 4}, "title": {}}}
+    >>> validated({"title": "Mine"}, schema, "mine.yaml")
+    {'title': 'Mine', 'n': 4}
     """
     if not isinstance(document, dict):
         raise SceneError(
@@ -45,7 +50,7 @@ def validated(document, schema, source):
 
 @cache
 def _validator():
-    """JSON schema's rules, but 2.0 is no integer: it would name the file n2.0.npz."""
+    """JSON schema's rules, but 2.0 is no integer: it would give its file the name n2.0.npz."""
     from jsonschema import Draft202012Validator, validators
 
     whole = Draft202012Validator.TYPE_CHECKER.redefine(
@@ -55,6 +60,7 @@ def _validator():
 
 
 def _order(error):
+    """Unknown keys first, for they explain missing ones; then what is nearest to the top."""
     return (
         error.validator != "additionalProperties",
         len(error.absolute_path),
@@ -67,8 +73,8 @@ def _check_kinds(document, schema, source, field=""):
     for key, part in schema.get("properties", {}).items():
         if key in document and not _fits(document, part):
             raise SceneError(
-                f"{source}: {field}{key}: only for kind {part['x-kind']}, here kind is {document['kind']}; "
-                "drop one of the two"
+                f"{source}: {field}{key}: only for kind {part['x-kind']}, "
+                f"here kind is {document['kind']}; drop one of the two"
             )
         if isinstance(document.get(key), dict):
             _check_kinds(document[key], part, source, f"{field}{key}.")
@@ -87,19 +93,11 @@ def _fill(document, schema):
 
 
 def _explain(error, schema):
+    """What is wrong with which field, and the remedy."""
     field = _name(error.absolute_path)
     below = f"{field}." if field else ""
     if error.validator == "additionalProperties":
-        known = list(error.schema["properties"])
-        key = next(key for key in error.instance if key not in known)
-        homes = [
-            section
-            for section, part in schema["properties"].items()
-            if key in part.get("properties", {})
-        ]
-        if homes and not field:
-            return f"{_name([key])}: unknown key here; it belongs into the section {' or '.join(homes)}"
-        return f"{below}{_name([key])}: unknown key; {nearest(key, known)}"
+        return _explain_unknown_key(error, schema, field)
     if error.validator == "required":
         missing = next(key for key in error.validator_value if key not in error.instance)
         return f"{below}{missing}: missing; add it ({_describe(error.schema, missing)})"
@@ -108,19 +106,37 @@ def _explain(error, schema):
     return f"{field}: {shown(error.instance)} is not valid; {_remedy(error)}"
 
 
+def _explain_unknown_key(error, schema, field):
+    """A key of a section that stands at the top, or a key that is nowhere known."""
+    known = list(error.schema["properties"])
+    key = next(key for key in error.instance if key not in known)
+    name = _name([key])
+    if field:
+        return f"{field}.{name}: unknown key; {nearest(key, known)}"
+    sections = [
+        section
+        for section, part in schema["properties"].items()
+        if key in part.get("properties", {})
+    ]
+    if sections:
+        return f"{name}: unknown key here; it belongs into the section {' or '.join(sections)}"
+    return f"{name}: unknown key; {nearest(key, known)}"
+
+
 def _name(path):
-    """The place of a value, its parts joined by dots; a part that is long or unprintable is shown
-    as JSON.
-    """
-    return ".".join(
-        str(part) if str(part).isprintable() and len(str(part)) <= WIDTH else shown(part)
-        for part in path
-    )
+    """The place of a value, its parts joined by dots."""
+    return ".".join(map(_name_part, path))
+
+
+def _name_part(part):
+    """A key or an index; one that is long or unprintable is shown as JSON."""
+    text = str(part)
+    return text if text.isprintable() and len(text) <= WIDTH else shown(part)
 
 
 def _remedy(error):
     value, bound = error.instance, error.validator_value
-    return {
+    remedies = {
         "enum": lambda: nearest(value, [str(v) for v in bound]),
         "oneOf": lambda: (
             _too_long(value, error.schema["oneOf"]) or f"expected {_alternatives(error.schema)}"
@@ -137,7 +153,8 @@ def _remedy(error):
         "minProperties": lambda: "it is empty; write 'key: value' lines",
         "pattern": lambda: f"use {error.schema.get('description', bound)}",
         "uniqueItems": lambda: "list each entry once",
-    }.get(error.validator, lambda: error.message[:200])()
+    }
+    return remedies.get(error.validator, lambda: error.message[:200])()
 
 
 def _too_long(value, alternatives):
@@ -159,9 +176,8 @@ _TYPES = {
 
 
 def _named_types(names):
-    return " or ".join(
-        _TYPES.get(name, name) for name in ([names] if isinstance(names, str) else names)
-    )
+    names = [names] if isinstance(names, str) else names
+    return " or ".join(_TYPES.get(name, name) for name in names)
 
 
 def _entries(count):
@@ -169,13 +185,15 @@ def _entries(count):
 
 
 def _alternatives(schema):
-    return " or ".join(
-        ", ".join(map(str, part["enum"]))
-        if "enum" in part
-        else _TYPES.get(part.get("type"), "another value")
-        for part in schema["oneOf"]
-    )
+    return " or ".join(map(_alternative, schema["oneOf"]))
+
+
+def _alternative(part):
+    if "enum" in part:
+        return ", ".join(map(str, part["enum"]))
+    return _TYPES.get(part.get("type"), "another value")
 
 
 def _describe(schema, key):
+    """The first sentence of a key's description."""
     return schema["properties"][key].get("description", "required").split(".")[0].strip()

@@ -40,20 +40,19 @@ class ProblemStatement:
 
     @property
     def needs_mesh(self):
-        """Whether more can be wrong than a document shows: the domain, names in a mesh file, an
-        exact truth.
+        """Whether more can be wrong than a document shows.
+
+        That is the domain, names in a mesh file, and an exact truth.
         """
-        plain = self.domain.get("kind", "rectangle") == "rectangle" and not by_formula(
-            self.boundary
-        )
-        return not plain or self.exact is not None
+        is_rectangle = self.domain.get("kind", "rectangle") == "rectangle"
+        return not is_rectangle or by_formula(self.boundary) or self.exact is not None
 
     def check(self):
-        """Check what only a triangulation shows, on the coarsest level; once, however often it is
-        called.
+        """Check what only a triangulation shows, on the coarsest level.
 
-        The domain and the names of its parts; subdomains of the coefficient; typed data against an
-        exact truth, and that against balance and Signorini's conditions.
+        That is: the domain and the names of its parts; subdomains of the coefficient; data that
+        the scene gives against an exact truth, and that against balance and Signorini's conditions.
+        However often it is called, the work is done once.
 
         Raises
         ------
@@ -84,23 +83,60 @@ class ProblemStatement:
     def from_mapping(cls, mapping):
         """Build from the mapping `Scene.statement`.
 
-        Data that are not typed are derived from the exact truth, or zero.
+        Data that are not given are derived from the exact truth, or zero.
+
+        Parameters
+        ----------
+        mapping : dict
+            ``domain``, ``boundary``, ``data`` and ``load_quadrature``; perhaps ``coarsest``, and
+            ``truth`` where it is exact.
+
+        Returns
+        -------
+        ProblemStatement
+
+        Raises
+        ------
+        FormulaError, SceneError
+            Naming the field, its value and the remedy.
+
+        Examples
+        --------
+        >>> parts = {"domain": {}, "boundary": {}, "data": {"f": "2*x"}, "load_quadrature": "exact"}
+        >>> data = ProblemStatement.from_mapping(parts).data
+        >>> data.f.text, data.obstacle.text
+        ('2*x', '0')
         """
-        typed = {
-            name: Formula(text, f"data.{name}")
-            for name, text in mapping["data"].items()
-            if name != "coefficient"
-        }
-        if "coefficient" in mapping["data"]:
-            typed["coefficient"] = read_coefficient(mapping["data"]["coefficient"])
+        given = _read_data(mapping["data"])
         exact = None
         if "truth" in mapping:
             from signorini.exact import derived_data, read_exact
 
-            exact = read_exact(mapping["truth"], typed.get("coefficient"))
-            data = replace(derived_data(exact), **typed)
+            exact = read_exact(mapping["truth"], given.get("coefficient"))
+            data = replace(derived_data(exact), **given)
         else:
-            zero = {name: Formula("0", f"data.{name}") for name in ("g", "dirichlet", "obstacle")}
-            data = Data(**zero | typed)
-        parts = (mapping["domain"], mapping["boundary"], data, mapping["load_quadrature"])
-        return cls(*parts, mapping.get("coarsest", 1), exact)
+            data = Data(**_zero_data() | given)
+        return cls(
+            domain=mapping["domain"],
+            boundary=mapping["boundary"],
+            data=data,
+            load_quadrature=mapping["load_quadrature"],
+            coarsest=mapping.get("coarsest", 1),
+            exact=exact,
+        )
+
+
+def _read_data(section):
+    """The section ``data`` as formulas and a coefficient."""
+    data = {
+        name: Formula(text, f"data.{name}")
+        for name, text in section.items()
+        if name != "coefficient"
+    }
+    if "coefficient" in section:
+        data["coefficient"] = read_coefficient(section["coefficient"])
+    return data
+
+
+def _zero_data():
+    return {name: Formula("0", f"data.{name}") for name in ("g", "dirichlet", "obstacle")}

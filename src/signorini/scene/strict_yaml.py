@@ -1,5 +1,7 @@
-"""YAML as people read it: no duplicate keys, no tags, no aliases, and 1.2's plain true, false and
-numbers.
+"""YAML as people read it.
+
+There are no duplicate keys, no tags and no aliases, and plain true, false and numbers are those of
+YAML 1.2.
 """
 
 import math
@@ -8,53 +10,49 @@ import re
 import yaml
 
 from signorini.exceptions import SceneError
+from signorini.wording import cut
 
-_MAX_BYTES = 100_000
-_WIDTH = 60  # of a word that is shown
+_MOST_CHARACTERS = 100_000
 
 
-def _cut(text, width=_WIDTH):
-    return text if len(text) <= width else f"{text[: width - 3]}..."
+def _error(problem, mark):
+    return yaml.constructor.ConstructorError(None, None, problem, mark)
 
 
 class _Loader(yaml.SafeLoader):
     yaml_implicit_resolvers = {}  # noqa: RUF012 (PyYAML's own class attribute)
 
     def compose_node(self, parent, index):
+        event = self.peek_event()
+        # Nested aliases can unfold to more text than a memory holds.
         if self.check_event(yaml.AliasEvent):
-            raise yaml.constructor.ConstructorError(
-                None,
-                None,
-                "aliases (*name) are not supported; repeat the value",
-                self.peek_event().start_mark,
-            )
-        if getattr(self.peek_event(), "tag", None) is not None:
-            raise yaml.constructor.ConstructorError(
-                None,
-                None,
-                f"tags ({_cut(self.peek_event().tag)}) are not supported; drop it",
-                self.peek_event().start_mark,
-            )
+            problem = "aliases (*name) are not supported; repeat the value"
+            raise _error(problem, event.start_mark)
+        # A tag names the type of a value, down to Python objects.
+        if getattr(event, "tag", None) is not None:
+            problem = f"tags ({cut(event.tag)}) are not supported; drop it"
+            raise _error(problem, event.start_mark)
         return super().compose_node(parent, index)
 
     def construct_mapping(self, node, deep=False):
-        seen = {}
+        seen = set()
         for key_node, _ in node.value:
             key = self.construct_object(key_node, deep=True)
             if not isinstance(key, str):
-                problem = f"key {str(key)[:40]} is not a word; put it in quotes if it is a name, a list in brackets"
-                raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
-            if key in seen:
-                raise yaml.constructor.ConstructorError(
-                    None,
-                    None,
-                    f"duplicate key {_cut(key)!r}; keep one of the two",
-                    key_node.start_mark,
+                problem = (
+                    f"key {str(key)[:40]} is not a word; put it in quotes if it is a name, "
+                    "a list in brackets"
                 )
-            seen[key] = None
+                raise _error(problem, key_node.start_mark)
+            if key in seen:
+                problem = f"duplicate key {cut(key)!r}; keep one of the two"
+                raise _error(problem, key_node.start_mark)
+            seen.add(key)
         return super().construct_mapping(node, deep)
 
 
+# Plain words of YAML 1.2's core schema. YAML 1.1, PyYAML's own, also takes no for false, 010 for 8
+# and 1:30 for 90.
 for _tag, _pattern, _first in (
     ("bool", r"true|false", "tf"),
     ("int", r"[-+]?(?:0|[1-9][0-9]*)", "-+0123456789"),
@@ -73,12 +71,8 @@ def _float(loader, node):
     except ValueError:
         return text
     if not math.isfinite(value):
-        raise yaml.constructor.ConstructorError(
-            None,
-            None,
-            f"number {_cut(text, 20)} is out of range; a double holds up to 1.8e308",
-            node.start_mark,
-        )
+        problem = f"number {cut(text, 20)} is out of range; a double holds up to 1.8e308"
+        raise _error(problem, node.start_mark)
     return value
 
 
@@ -108,26 +102,35 @@ def load_yaml(path):
     SceneError
         Naming the file, the line and the remedy.
     """
+    text = _read(path)
+    try:
+        return yaml.load(text, Loader=_Loader)
+    except yaml.MarkedYAMLError as error:
+        raise SceneError(f"{path}: {_explain(error)}") from error
+    except (yaml.YAMLError, RecursionError) as error:
+        problem = cut(str(error).splitlines()[0], 200)
+        raise SceneError(f"{path}: malformed YAML ({problem})") from error
+
+
+def _read(path):
     try:
         with open(path, encoding="utf-8") as stream:
-            text = stream.read(_MAX_BYTES + 1)
+            text = stream.read(_MOST_CHARACTERS + 1)
     except OSError as error:
         raise SceneError(f"{path}: cannot be read ({error.strerror}); check the name") from error
     except UnicodeDecodeError as error:
         raise SceneError(
             f"{path}: not UTF-8 text ({error.reason} at byte {error.start}); save it as UTF-8"
         ) from error
-    if len(text) > _MAX_BYTES:
-        raise SceneError(f"{path}: longer than {_MAX_BYTES} characters; is this a scene?")
-    try:
-        return yaml.load(text, Loader=_Loader)
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark
-        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        problem = _cut(error.problem or "malformed YAML", 200)
-        remedy = "" if "; " in problem else "; mend this line"
-        raise SceneError(f"{path}: {place}{problem}{remedy}") from error
-    except (yaml.YAMLError, RecursionError) as error:
-        raise SceneError(
-            f"{path}: malformed YAML ({_cut(str(error).splitlines()[0], 200)})"
-        ) from error
+    if len(text) > _MOST_CHARACTERS:
+        raise SceneError(f"{path}: longer than {_MOST_CHARACTERS} characters; is this a scene?")
+    return text
+
+
+def _explain(error):
+    """Place, problem and remedy, which own errors have already."""
+    mark = error.problem_mark
+    place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+    problem = cut(error.problem or "malformed YAML", 200)
+    remedy = "" if "; " in problem else "; mend this line"
+    return f"{place}{problem}{remedy}"

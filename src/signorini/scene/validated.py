@@ -1,5 +1,6 @@
-"""Validated scenes as files, ``scene.json``: what the commands of a workflow read instead of
-validating the scene's own file again.
+"""Validated scenes as files, ``scene.json``.
+
+The commands of a workflow read them, and do not validate the scene's own file again.
 """
 
 from pathlib import Path
@@ -19,8 +20,28 @@ def write_validated(path, scene):
     path : str or Path
     scene : Scene
     """
+    write_json(path, _values(scene))
+
+
+def keep_validated(path, scene):
+    """`write_validated`, where the file does not hold that already.
+
+    Parameters
+    ----------
+    path : str or Path
+    scene : Scene
+    """
+    try:
+        kept = read_json(path)
+    except StorageError:
+        kept = None
+    if kept != _values(scene):
+        write_validated(path, scene)
+
+
+def _values(scene):
     values = {"name": scene.name, "source": str(scene.source), "document": scene.document}
-    write_json(path, values | {"reference_note": scene.reference_note})
+    return values | {"reference_note": scene.reference_note}
 
 
 def read_validated(path):

@@ -46,7 +46,8 @@ def _check_coefficient(k):
         raise SolverError("data.coefficient: not positive and finite everywhere")
     if k.max() > _CONTRAST * k.min():
         raise SolverError(
-            f"data.coefficient: from {k.min():.3g} to {k.max():.3g}, which double precision cannot hold side by side; "
+            f"data.coefficient: from {k.min():.3g} to {k.max():.3g}, "
+            "which double precision cannot hold side by side; "
             f"let it vary by less than {_CONTRAST:g}"
         )
 
@@ -81,7 +82,8 @@ def check_symmetric(A):
     Ax, Ay = A @ x, A @ y
     if not abs(dot(x, Ay) - dot(y, Ax)) <= 1e-9 * np.sqrt(dot(x, x)) * np.sqrt(dot(Ax, Ax)):
         raise SolverError(
-            "problem.A: not symmetric, or not finite; a Signorini problem is that of a symmetric form"
+            "problem.A: not symmetric, or not finite; "
+            "a Signorini problem is that of a symmetric form"
         )
 
 
@@ -131,20 +133,24 @@ def _check_load(load, contact, place):
     rounding = 8.0 * np.finfo(float).eps * size
     if not contact and place:
         raise SolverError(
-            f"singular stiffness matrix: a part of the body is loose, the boundary{place} is neither dirichlet nor "
+            "singular stiffness matrix: a part of the body is loose, "
+            f"the boundary{place} is neither dirichlet nor "
             "contact anywhere; join it to a dirichlet or contact part of the boundary"
         )
     if not contact:
         raise SolverError(
-            "boundary: neither dirichlet nor contact anywhere, u is determined up to a constant at best"
+            "boundary: neither dirichlet nor contact anywhere, "
+            "u is determined up to a constant at best"
         )
     if abs(total) <= rounding:
         raise SolverError(
-            f"nonunique: no dirichlet part{place} and int f + int g = 0, so a constant may be added to u; "
+            f"nonunique: no dirichlet part{place} and int f + int g = 0, "
+            "so a constant may be added to u; "
             "add a dirichlet part to the boundary"
         )
     if total > 0.0:
         raise SolverError(
-            f"unbounded: no dirichlet part{place} and int f + int g = {total:.3e} > 0 lifts u off the obstacle without "
+            f"unbounded: no dirichlet part{place} and int f + int g = {total:.3e} > 0 "
+            "lifts u off the obstacle without "
             "end; add a dirichlet part to the boundary, or a load with negative mean"
         )

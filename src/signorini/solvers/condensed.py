@@ -104,7 +104,7 @@ class Condensed:
 
 
 def _springs(problem):
-    """About the size of S on each contact dof: the coefficient there, a power of two; shape (nc,)."""
+    """About the size of S on each contact dof, shape (nc,): the coefficient, a power of two."""
     if problem.coefficient is None:
         return np.ones(problem.contact.size)
     stiffest = np.zeros(problem.b.size)
@@ -114,12 +114,13 @@ def _springs(problem):
 
 
 def why_singular(problem):
-    """Say why factors show a matrix that is not positive: a loose part, or what costs all digits."""
+    """Why factors show a matrix that is not positive: a loose part, or what costs all digits."""
     at = loose_part(problem)
     if at is None:
         return f"domain: no digit of the solution survives rounding: {causes(problem)}"
     return (
-        f"singular stiffness matrix: a part of the body is loose, that with ({at[0]:.6g}, {at[1]:.6g}); "
+        f"singular stiffness matrix: a part of the body is loose, "
+        f"that with ({at[0]:.6g}, {at[1]:.6g}); "
         "join it to a dirichlet or contact part of the boundary"
     )
 

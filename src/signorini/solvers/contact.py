@@ -101,7 +101,8 @@ class DenseContact:
             L = np.zeros_like(K)
         if np.any(L.diagonal() ** 2 <= self.band * K.diagonal()):
             raise SolverError(
-                f"domain: contact matrix S is singular or indefinite on {len(K)} free dofs; stretch cells less"
+                f"domain: contact matrix S is singular or indefinite on {len(K)} free dofs; "
+                "stretch cells less"
             )
         x = np.zeros_like(rhs)
         for _ in ("solve", "refine"):
@@ -151,7 +152,8 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     load = np.ldexp(q, shift)
     if singular and np.sum(load) >= 0:
         raise SolverError(
-            "no unique solution: without a dirichlet part of the boundary sum(q), the load left, must be negative"
+            "no unique solution: without a dirichlet part of the boundary "
+            "sum(q), the load left, must be negative"
         )
     w, *cost = _pivot(operator, load, weight, active, max_iterations, singular)
     rate = operator.apply(w) - load

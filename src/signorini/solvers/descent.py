@@ -131,7 +131,7 @@ class Descent:
 
 
 def _greatest_nearby(rows, values):
-    """The greatest of some values, shape (n,), among the unknowns in each of some rows of a matrix."""
+    """The greatest of values, shape (n,), among the unknowns in each of some rows of a matrix."""
     if not rows.shape[0]:
         return np.zeros(0)
     return np.maximum.reduceat(values[rows.indices], rows.indptr[:-1])

@@ -82,7 +82,8 @@ def solve_direct(problem, guess=None):
         iterations += 1
         active[rule.choose(active, wrong, np.where(active, force, gap))] ^= True
     raise SolverError(
-        f"direct: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best; {causes(problem)}"
+        f"direct: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best; "
+        f"{causes(problem)}"
     )
 
 

@@ -8,7 +8,8 @@ from signorini.fem.residual import EPS
 from signorini.solvers.solution import SOLVED
 
 _TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
-LEAST_FORCE = 1e-6  # of the forces acting: a contact force smaller than this is not what others are measured by
+# Of the forces acting: a contact force smaller than this is not what others are measured by.
+LEAST_FORCE = 1e-6
 SAFETY, _PESSIMISM = (
     3.0,
     1e3,

@@ -146,7 +146,7 @@ class _Line:
         return w
 
     def _force(self, operator, w, q):
-        """The contact forces: the load condensed to a dof of the contact set is what presses on it."""
+        """The contact forces: the load condensed to a dof in contact is what presses on it."""
         return np.where(self.active, operator.apply(w) - q, 0.0)
 
     def exchange(self, dofs):

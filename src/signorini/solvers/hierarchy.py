@@ -20,12 +20,14 @@ from signorini.fem.stiffness import assemble_stiffness
 from signorini.solvers.solution import largest
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
-STRETCHED = 8.0  # cells beyond which levels that know only the mesh take more steps than algebraic ones; measured
+# Cells beyond which levels that know only the mesh take more steps than algebraic ones; measured.
+STRETCHED = 8.0
 _STRONG = 0.25  # of the largest negative coupling of a row, from which on a coupling is strong
 _WILD = 2.0  # weight of an interpolation that positive couplings have spoilt
 _NOTHING = 1e-3  # of the strong couplings of a row: what is too little to divide them by
 _EXACT = 1e6  # range of the diagonal beyond which products are taken by differences
-_JUMP = 30.0  # of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow
+# Of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow.
+_JUMP = 30.0
 HALF = 0.5 - 1e-9
 
 
@@ -71,7 +73,7 @@ class Level:
         return self.A.diagonal()
 
     def coarse_mask(self, mask):
-        """The unknowns of the coarser level that are at least half made of marked ones, both masks."""
+        """The unknowns of the coarser level that are at least half made of marked ones; masks."""
         return self.R @ mask.astype(float) >= HALF
 
 
@@ -126,7 +128,7 @@ def is_nested(mesh):
 
 
 def causes(problem):
-    """What in a problem costs digits, for a message: cell shapes, the coefficient; and the remedy."""
+    """What in a problem costs digits: cell shapes, the coefficient; and the remedy; a message."""
     found = []
     if problem.mesh.stretch > STRETCHED:
         found.append(
@@ -244,7 +246,8 @@ def _check_nested(mesh, coarser, parents):
     k = int(off.argmax())
     if off[k] > 1e-9 * np.ptp(coarse, axis=1).max():
         raise MeshError(
-            f"mesh: vertex {k} at ({p[0, k]:.6g}, {p[1, k]:.6g}) is not where its coarser mesh puts it; "
+            f"mesh: vertex {k} at ({p[0, k]:.6g}, {p[1, k]:.6g}) "
+            "is not where its coarser mesh puts it; "
             "the levels do not nest: make the mesh by refined(), or drop the parent"
         )
 
@@ -301,7 +304,7 @@ class Cycle:
 
 
 class Eliminated:
-    """The same with the held unknowns eliminated first: levels that follow what is left of A alone."""
+    """The same with the held unknowns eliminated first: levels follow what is left of A alone."""
 
     def __init__(self, levels, held):
         self.level, self.rows = levels[0], np.flatnonzero(~held)
@@ -317,5 +320,5 @@ class Eliminated:
 
 
 def preconditioner(levels, held):
-    """The `Cycle` of levels with some unknowns held, or where they ask for it the `Eliminated` one."""
+    """The `Cycle` of levels with some unknowns held; or `Eliminated`, where they ask for it."""
     return (Eliminated if levels[0].robust else Cycle)(levels, held)

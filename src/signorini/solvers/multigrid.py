@@ -28,7 +28,10 @@ def why_not(problem):
     """Say why the route does not apply to a problem, or None where it does."""
     most, stretch = problem.finite_element.facts.multigrid_stretch, problem.mesh.stretch
     if stretch > most:
-        return f"there are cells {stretch:.0f} times as long as high, and {problem.element} takes at most {most:g}"
+        return (
+            f"there are cells {stretch:.0f} times as long as high, "
+            f"and {problem.element} takes at most {most:g}"
+        )
     return None
 
 

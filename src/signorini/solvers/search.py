@@ -82,7 +82,8 @@ class Search:
         """Let dofs of a wrong sign change sides."""
         if self.steps >= _MAX_STEPS:
             raise SolverError(
-                f"multigrid: no contact set in {_MAX_STEPS} steps, {self.rule.fewest} signs wrong at best"
+                f"multigrid: no contact set in {_MAX_STEPS} steps, "
+                f"{self.rule.fewest} signs wrong at best"
             )
         depth = np.where(
             self.active, self.force / self.levels[0].diagonal[self.obstacle.contact], self.gap

@@ -24,7 +24,8 @@ METHODS = {
 _MANY = (
     1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 )
-_FEW = 20_000  # dofs up to which a factorisation is faster than loading and building a multigrid hierarchy; measured
+# Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
+_FEW = 20_000
 _ASKED = "asked for"
 # What an undecided dof does is a product of two estimates, the rounding of its sign and a stiffness,
 # and may come out a few times too small. Where all dofs are certain, the stability suite has found
@@ -213,9 +214,10 @@ def _choose(problem, method):
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
         return "direct", f"{why_not}, and not refined or of stretched cells"
-    if why_not := _why_not("multigrid", problem):
+    if stretched := _why_not("multigrid", problem):
         raise SolverError(
-            f"domain: too large for a factorisation, and {why_not}; stretch cells less, or use fewer"
+            f"domain: too large for a factorisation, and {stretched}; "
+            "stretch cells less, or use fewer"
         )
     return "multigrid", f"{why_not}, and too large for a factorisation"
 
@@ -248,7 +250,7 @@ def _accuracy(found, constant):
 
 
 def _with_constant(problem, deviation, constant, active):
-    """u itself, the given values taken over as they are; the same array where there is no constant."""
+    """u itself, given values taken over as they are; the same array where there is no constant."""
     if not constant:
         return deviation
     u = deviation + constant

@@ -126,7 +126,7 @@ def kkt_residual(problem, u):
 
 
 def _variation(problem, u):
-    """The least of u and of the Dirichlet values, and how much both and the greatest obstacle vary."""
+    """The least of u and the Dirichlet values, and how much they and the greatest obstacle vary."""
     values = (u, problem.fixed_values)
     low = min(np.min(part, initial=np.inf) for part in values)
     return low, float(max(np.max(part, initial=-np.inf) for part in (*values, problem.lower)) - low)

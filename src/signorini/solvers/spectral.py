@@ -97,7 +97,8 @@ class SpectralContact:
             p = z + (rz / before) * p
         if best > 1e6 * floor:
             raise SolverError(
-                f"contact line: conjugate gradients stopped at residual {best:.2e}, above {floor:.2e}"
+                f"contact line: conjugate gradients stopped at residual {best:.2e}, "
+                f"above {floor:.2e}"
             )
         self._last = best_x
         return best_x[free]

@@ -9,11 +9,11 @@ from pathlib import Path
 from signorini.commands.benchmark.options import add_scenes, add_settings, scenes_of, settings_of
 from signorini.commands.catalogue import Outcome
 from signorini.report.result_files import read_errors
+from signorini.rivals import RIVALS
 from signorini.storage import read_csv, write_csv, write_json
 from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
 from signorini.studies.benchmark.settings import shown_levels
 from signorini.studies.benchmark.summary import summary, with_errors
-from signorini.studies.rivals import RIVALS
 
 
 def add_arguments(parser):

@@ -7,9 +7,9 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
 from signorini.report.document import render
+from signorini.rivals import RIVALS
 from signorini.storage import write_json
 from signorini.studies.machine import OURS, describe
-from signorini.studies.rivals import RIVALS
 
 
 def add_arguments(parser):

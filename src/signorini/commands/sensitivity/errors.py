@@ -7,9 +7,9 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
+from signorini.open_choices.options import count_solves
 from signorini.storage import write_csv
 from signorini.studies.sensitivity.errors import errors_of_diagonal
-from signorini.studies.sensitivity.options import count_solves
 
 
 def add_arguments(parser):

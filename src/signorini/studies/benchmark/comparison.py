@@ -10,12 +10,12 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.problem import discretize_on
+from signorini.rivals import RIVALS
+from signorini.rivals.worker import Worker
 from signorini.solvers import METHODS, kkt_residual, solve
 from signorini.solvers.solution import status_of
 from signorini.studies.benchmark.columns import TOLERANCE
 from signorini.studies.benchmark.point import difference, spread
-from signorini.studies.rivals import RIVALS
-from signorini.studies.rivals.worker import Worker
 
 REPEATS = 3
 _PREPARATION = 20.0  # seconds for imports and meshes

@@ -5,9 +5,7 @@ import math
 import pandas as pd
 
 from signorini.errors.rates import slopes
-from signorini.report.compare import compare
-from signorini.storage import read_csv
-from signorini.studies.sensitivity.options import (
+from signorini.open_choices.options import (
     ELEMENTS,
     H1,
     LOADS,
@@ -16,6 +14,8 @@ from signorini.studies.sensitivity.options import (
     RULES,
     SLOPES,
 )
+from signorini.report.compare import compare
+from signorini.storage import read_csv
 
 NORMS = ("l2", "h1")
 TIE = "tie"

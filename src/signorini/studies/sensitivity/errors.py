@@ -7,8 +7,8 @@ all combinations that share them.
 from functools import cache
 
 from signorini.errors.overlay import Overlay
-from signorini.studies.sensitivity.options import ELEMENTS, LOADS, RULES
-from signorini.studies.sensitivity.solves import solutions, with_options
+from signorini.open_choices.options import ELEMENTS, LOADS, RULES
+from signorini.open_choices.solves import solutions, with_options
 
 
 def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, rules=RULES):

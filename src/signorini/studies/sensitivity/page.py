@@ -2,8 +2,9 @@
 
 import pandas as pd
 
+from signorini.fem.element_facts import ABBREVIATIONS
+from signorini.open_choices.options import OPTIONS, PAPER, count_solves
 from signorini.report.document import render
-from signorini.report.tables import ELEMENTS
 from signorini.studies.sensitivity.combinations import (
     NORMS,
     SERIES,
@@ -12,7 +13,6 @@ from signorini.studies.sensitivity.combinations import (
     smaller,
     where,
 )
-from signorini.studies.sensitivity.options import OPTIONS, PAPER, count_solves
 
 PAGE = "studies/sensitivity/page.md.j2"
 _SLOPES = [f"slope_{norm}_{element}" for norm, element in SERIES]
@@ -44,7 +44,7 @@ def page(layout, rows, errors, reference_n, quick=False):
         "levels": levels,
         "reference_n": reference_n,
         "quick": quick,
-        "elements": ELEMENTS,
+        "elements": ABBREVIATIONS,
         "options": OPTIONS,
         "paper": PAPER,
         "solves": count_solves(errors),

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from signorini.generated.bodies import FAMILIES
+from signorini.rivals import RIVALS
 from signorini.storage import read_csv
-from signorini.studies.rivals import RIVALS
 from signorini.studies.stability.summaries import EPS, in_order, solved_to
 from signorini.studies.stability.verdicts import answered
 

@@ -5,8 +5,8 @@ from itertools import product
 import numpy as np
 
 from signorini.report.document import Table, render
+from signorini.rivals import RIVALS
 from signorini.studies import machine
-from signorini.studies.rivals import RIVALS
 from signorini.studies.stability import summaries
 from signorini.studies.stability.claims import claims
 from signorini.studies.stability.parts import errors_of, title

@@ -7,9 +7,9 @@ import numpy as np
 
 from signorini.fem.elements import ELEMENTS
 from signorini.generated.problems import LOADS, instance
+from signorini.rivals import RIVALS
+from signorini.rivals.worker import Worker
 from signorini.solvers import kkt_residual
-from signorini.studies.rivals import RIVALS
-from signorini.studies.rivals.worker import Worker
 from signorini.studies.stability.proof import PROOF, proofs
 
 _SCIPY = ("scipy.linalg", "scipy.optimize", "scipy.sparse.linalg")

@@ -155,9 +155,9 @@ def _prescribed(problem):
 
 
 # In full, so that the workflow finds them: they are inputs of the jobs that may import them.
-_ACTIVE_SET = "signorini.studies.rivals.active_set"
-_BOUNDED = "signorini.studies.rivals.bounded"
-_QUADRATIC = "signorini.studies.rivals.quadratic"
+_ACTIVE_SET = "signorini.rivals.active_set"
+_BOUNDED = "signorini.rivals.bounded"
+_QUADRATIC = "signorini.rivals.quadratic"
 
 # Name, title, package, module and function of the adapter.
 _ALL = (

@@ -1,7 +1,7 @@
 """What each option that the paper leaves open does to its table."""
 
 from signorini.errors.reference import ReferenceErrors
-from signorini.studies.sensitivity.solves import solutions, with_options
+from signorini.open_choices.solves import solutions, with_options
 
 
 def effects_of_options(statement, errors, elements, levels, reference, norms):

@@ -28,7 +28,7 @@ from signorini.mesh.parse import parse
 from signorini.mesh.patterns import alternating
 from signorini.scene.read import load_scene
 from signorini.solvers import solve
-from signorini.solvers.fourier import obstruction
+from signorini.solvers.fourier import why_not
 
 FIELDS = (
     r"\b(domain|boundary|data|levels|elements|load_quadrature|truth|norms|outputs|polygon|solver)\b"
@@ -99,7 +99,7 @@ def check_solution(problem):
     """Solve by every route that applies; check the conditions, the routes against each other, and
     BVLS.
     """
-    routes = ["auto", "direct", *["fourier"] * (obstruction(problem) is None)]
+    routes = ["auto", "direct", *["fourier"] * (why_not(problem) is None)]
     solutions = [solve(problem, route) for route in routes]
     found, A = solutions[0], stiffness(problem)
     if 0 < largest(problem.b, problem.lower, problem.fixed_values) < SUBNORMAL:

@@ -21,5 +21,9 @@ class SolverError(SignoriniError):
     """A problem that has no unique solution, or a solve that did not reach its tolerance."""
 
 
+class NotApplicableError(SolverError):
+    """A method that does not take such a problem at all."""
+
+
 class StorageError(SignoriniError):
     """A file that cannot be written, or is truncated, altered or of another kind."""

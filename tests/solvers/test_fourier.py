@@ -14,7 +14,7 @@ from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize_on
 from signorini.mesh.boundary import SIDES
 from signorini.solvers import kkt_residual, solve
-from signorini.solvers.fourier import obstruction
+from signorini.solvers.fourier import why_not
 
 ROOT = Path(__file__).parents[2]
 KINDS = ("dirichlet", "neumann")
@@ -88,7 +88,7 @@ def test_both_routes_agree_on_every_contact_side(side, far, beside, element, sha
 )
 def test_both_routes_agree_without_contact(kinds, element, shape, diagonal):
     problem = random_problem(kinds, element, shape, diagonal)
-    if obstruction(problem) is None:
+    if why_not(problem) is None:
         assert_routes_agree(problem)
     else:
         assert kinds[0] != kinds[2]
@@ -167,7 +167,7 @@ OBSTRUCTED = {
 @pytest.mark.parametrize("case", OBSTRUCTED)
 def test_what_stands_in_the_way_is_named(case, element):
     mesh, data, reason = OBSTRUCTED[case]
-    assert obstruction(discretize_on(mesh(), element, statement(**data))) == reason
+    assert why_not(discretize_on(mesh(), element, statement(**data))) == reason
 
 
 def test_no_matrix_is_assembled(element):

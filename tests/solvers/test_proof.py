@@ -131,6 +131,15 @@ def test_the_estimate_holds_where_factors_keep_no_digit(load, seed):
     assert_proved(solution, judge(problem))
 
 
+def test_solved_is_said_with_a_margin_where_dofs_are_undecided():
+    """Cells stretched by 7e7: u is stated to 4e-11 and wrong by 1.2e-10, more than `solved` allows."""
+    problem = instance("graded", "degenerate", "P1", 29).problem
+    solution = solve(problem, "direct")
+    assert solution.undecided.any()
+    assert 1e-11 < solution.accuracy < 1e-10
+    assert solution.status == "inaccurate"
+
+
 def test_a_force_is_no_surer_than_its_own_rounding():
     """Two stiffly coupled rows, whose roundings cancelled in both samples: once 5e-17."""
     solution = solve(instance("graded", "white", "P1", 1130).problem, "direct")

@@ -24,6 +24,8 @@ class ElementFacts:
     direct_bytes, multigrid_bytes : int
         Memory that a solve by this route needs for each triangle; the least measured on 2**15 to
         2**23 triangles.
+    multigrid_stretch : float
+        Length over height of cells, beyond which no multigrid levels converge; measured.
     """
 
     name: str
@@ -31,6 +33,7 @@ class ElementFacts:
     abbreviation: str
     direct_bytes: int
     multigrid_bytes: int
+    multigrid_stretch: float
 
     @property
     def label(self):
@@ -55,8 +58,12 @@ class ElementFacts:
         }[route]
 
 
-P1_FACTS = ElementFacts("P1", "conforming P1", "CF", direct_bytes=1100, multigrid_bytes=130)
-CR_FACTS = ElementFacts("CR", "Crouzeix-Raviart", "NCF", direct_bytes=1800, multigrid_bytes=400)
+P1_FACTS = ElementFacts(
+    "P1", "conforming P1", "CF", direct_bytes=1100, multigrid_bytes=130, multigrid_stretch=1e6
+)
+CR_FACTS = ElementFacts(
+    "CR", "Crouzeix-Raviart", "NCF", direct_bytes=1800, multigrid_bytes=400, multigrid_stretch=50.0
+)
 
 ELEMENT_FACTS = {facts.name: facts for facts in (P1_FACTS, CR_FACTS)}
 ELEMENT_NAMES = tuple(ELEMENT_FACTS)

@@ -86,9 +86,9 @@ def _fourier_applies(statement, element, n):
     import numpy as np
 
     from signorini.fem.problem import Problem
-    from signorini.solvers.fourier import obstruction
+    from signorini.solvers.fourier import why_not
 
     grid = statement.triangulations.level(n)
     values, dofs = np.zeros(0), np.zeros(0, dtype=int)
     problem = Problem(element, grid, values, dofs, values, dofs, values)
-    return obstruction(problem) is None
+    return why_not(problem) is None

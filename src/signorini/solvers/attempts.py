@@ -3,7 +3,7 @@
 import time
 from dataclasses import dataclass
 
-from signorini.exceptions import SolverError
+from signorini.exceptions import NotApplicableError, SolverError
 from signorini.solvers.select import METHODS, solve
 from signorini.solvers.solution import Solution
 
@@ -31,7 +31,7 @@ class Attempt:
     @property
     def applies(self):
         """Whether the route takes such a problem at all."""
-        return self.error is None or "does not apply" not in str(self.error)
+        return not isinstance(self.error, NotApplicableError)
 
     def result(self):
         """The solution.

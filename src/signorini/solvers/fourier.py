@@ -21,13 +21,14 @@ from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
 from signorini.work import count
 
+_ELIMINATIONS = {"P1": Vertices, "CR": Edges}
 _MAX_STEPS = 100
 _CORRECTIONS = 5
 _CERTAIN = 1e-12  # a correction of which share of u is one to the last digits
 _SAFETY = 8.0  # of a bound over the last correction
 
 
-def obstruction(problem):
+def why_not(problem):
     """Say why the route does not apply to a problem, or None where it does."""
     grid = problem.grid
     if grid is None:
@@ -44,7 +45,7 @@ def obstruction(problem):
 
 
 def solve_fourier(problem, guess=None):
-    """Solve a problem for which `obstruction` is None.
+    """Solve a problem for which `why_not` is None.
 
     Parameters
     ----------
@@ -63,7 +64,7 @@ def solve_fourier(problem, guess=None):
     SolverError
         If the active-set iteration does not end.
     """
-    route = (Vertices if problem.element == "P1" else Edges)(problem.grid, strip_of(problem.grid))
+    route = _ELIMINATIONS[problem.element](problem.grid, strip_of(problem.grid))
     line = _Line(guess, singular=problem.fixed.size == 0)
     u = _displacement(problem, route, _shifted_load(problem), line.settle)
     u[problem.fixed] = problem.fixed_values

@@ -89,8 +89,9 @@ def build_hierarchy(problem):
     robust = False
     if not is_regular(mesh):
         return _algebraic(A, robust=True)
-    if problem.element == "CR" and A.shape[0] > _SMALL:
-        levels.append(Level(A, _means(mesh.facets, mesh.number_of_vertices)))
+    ends = problem.finite_element.vertex_means(mesh)
+    if ends is not None and A.shape[0] > _SMALL:
+        levels.append(Level(A, _means(ends, mesh.number_of_vertices)))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
     while A.shape[0] > _SMALL and (coarser := mesh.coarser()) is not None:
         parents = mesh.vertex_parents()
@@ -102,7 +103,7 @@ def build_hierarchy(problem):
         levels.append(Level(A, _means(parents, coarser.number_of_vertices)))
         mesh, A = coarser, assemble_stiffness(coarser, ELEMENTS["P1"], k)
     below = _algebraic(A)
-    robust = robust or (jumps(k) and (problem.element == "CR" or problem.mesh.coarser() is None))
+    robust = robust or (jumps(k) and (ends is not None or problem.mesh.coarser() is None))
     levels += below
     return [replace(level, robust=True) for level in levels] if robust else levels
 

@@ -23,12 +23,10 @@ from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
 from signorini.solvers.search import Search
 from signorini.work import counting
 
-_STRETCH = {"P1": 1e6, "CR": 50.0}  # of cells, beyond which no levels converge; measured
 
-
-def obstruction(problem):
+def why_not(problem):
     """Say why the route does not apply to a problem, or None where it does."""
-    most, stretch = _STRETCH[problem.element], problem.mesh.stretch
+    most, stretch = problem.finite_element.facts.multigrid_stretch, problem.mesh.stretch
     if stretch > most:
         return (
             f"there are cells {stretch:.0f} times as long as high, "

@@ -38,7 +38,8 @@ class Solution:
         exact arithmetic they may be on the other side. Everywhere else `active` is the contact set
         in exact arithmetic.
     status : {"solved", "inaccurate"}
-        Never better than the residual and the two accuracies.
+        Never better than the residual and the two accuracies; than ten times that of u where
+        contact dofs are undecided.
     iterations : int
         Active-set steps.
     method : str

@@ -30,6 +30,9 @@ class _CR(Element):
         start, end = mesh.facet_ends(dofs)
         return 0.5 * (mesh.points(start) + mesh.points(end))
 
+    def vertex_means(self, mesh):
+        return mesh.facets
+
     def boundary_dofs(self, mesh, label):
         return mesh.boundary_facets(label)
 

@@ -87,6 +87,16 @@ class Element(ABC):
             Unit of length.
         """
 
+    @abstractmethod
+    def vertex_means(self, mesh):
+        """The two vertices between whose values each degree of freedom lies midway.
+
+        Returns
+        -------
+        ndarray of int, shape (2, ndof), or None
+            None where the degrees of freedom are the values at the vertices.
+        """
+
     # On the boundary.
 
     @abstractmethod

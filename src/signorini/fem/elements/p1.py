@@ -25,6 +25,9 @@ class _P1(Element):
     def nodes(self, mesh, dofs):
         return mesh.points(dofs)
 
+    def vertex_means(self, mesh):
+        return None
+
     def boundary_dofs(self, mesh, label):
         return mesh.boundary_vertices(label)
 

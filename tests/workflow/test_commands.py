@@ -141,11 +141,11 @@ def test_command(checkout, place):
 
 
 def test_languages():
-    """A block is run here, or by another test: Python as a doctest, YAML as scenes and keys."""
+    """A block is run here, or by another test: Python as a doctest, YAML as scenes; or a drawing."""
     languages = {
         match[1] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))
     }
-    assert languages <= {*SHELL, "python", "yaml"}
+    assert languages <= {*SHELL, "python", "yaml", "text"}
 
 
 def test_examples():

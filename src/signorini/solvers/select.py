@@ -27,7 +27,7 @@ _MANY = (
 # Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
 _FEW = 20_000
 _ASKED = "asked for"
-# What an undecided dof does is a product of two estimates, the rounding of its sign and a stiffness,
+# What an undecided dof does is a product of two estimates, rounding of its sign and a stiffness,
 # and may come out a few times too small. Where all dofs are certain, the stability suite has found
 # no error of u above its estimate, and with undecided ones none of a force above its own.
 _MARGIN = 10.0

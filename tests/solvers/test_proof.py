@@ -132,7 +132,7 @@ def test_the_estimate_holds_where_factors_keep_no_digit(load, seed):
 
 
 def test_solved_is_said_with_a_margin_where_dofs_are_undecided():
-    """Cells stretched by 7e7: u is stated to 4e-11 and wrong by 1.2e-10: too much for `solved`."""
+    """Cells stretched by 7e7: u is stated to 4e-11, and wrong by 1.2e-10."""
     problem = instance("graded", "degenerate", "P1", 29).problem
     solution = solve(problem, "direct")
     assert solution.undecided.any()

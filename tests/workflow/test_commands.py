@@ -141,7 +141,7 @@ def test_command(checkout, place):
 
 
 def test_languages():
-    """A block is run here, or by another test: Python as a doctest, YAML as scenes; or a drawing."""
+    """A block is run here, or by another test, as Python and YAML are; or it is plain text."""
     languages = {
         match[1] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))
     }

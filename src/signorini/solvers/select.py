@@ -27,9 +27,9 @@ _MANY = (
 # Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
 _FEW = 20_000
 _ASKED = "asked for"
-# What an undecided dof does is a product of two estimates, rounding of its sign and a stiffness,
-# and may come out a few times too small. Where all dofs are certain, the stability suite has found
-# no error of u above its estimate, and with undecided ones none of a force above its own.
+# On the estimated error of u where dofs are undecided. Errors of u above 1e-13 and above their
+# estimate were met there alone: four times it at most in the stability suite, three times it on
+# graded cells. With undecided dofs no force was further off than its estimate.
 _MARGIN = 10.0
 _NEARLY_CONSTANT = (
     2.0**-6

@@ -55,6 +55,16 @@ def _check_coefficient(k):
 def checked_guess(problem, guess):
     """A guess of the contact set as an array of its own; None where there is none.
 
+    Parameters
+    ----------
+    problem : Problem
+    guess : array_like of bool, shape (nc,), or None
+        Which contact dofs are believed to bind.
+
+    Returns
+    -------
+    ndarray of bool, shape (nc,), or None
+
     Raises
     ------
     SolverError
@@ -72,10 +82,15 @@ def checked_guess(problem, guess):
 
 
 def check_symmetric(A):
-    """Hold x .
+    """Check that a matrix is symmetric, by two products.
 
-    A y against y . A x for random x and y: that tells any matrix that is not symmetric, or not
+    For random x and y, x . A y must be y . A x. That tells any matrix that is not symmetric, or not
     finite.
+
+    Raises
+    ------
+    SolverError
+        If it is neither.
     """
     x = np.random.default_rng(0).random(A.shape[0]) - 0.5
     y = x[::-1].copy()

@@ -82,10 +82,21 @@ class Condensed:
         return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
 
     def extend(self, load, w, reduced=None):
-        """The free dofs in equilibrium with `load` when the contact dofs equal `w`; zero on the
-        fixed ones.
+        """The free dofs in equilibrium, with the contact dofs given; zero on the fixed ones.
 
-        `reduced` is ``reduce(load)`` where it is known.
+        Parameters
+        ----------
+        load : ndarray, shape (ndof,) or (ndof, k)
+            Unit of the load.
+        w : ndarray, shape (nc,) or (nc, k)
+            The contact dofs, unit of u.
+        reduced : ndarray, shape (nc,) or (nc, k), optional
+            ``reduce(load)``, where it is known.
+
+        Returns
+        -------
+        ndarray, shape (ndof,) or (ndof, k)
+            Unit of u.
         """
         reduced = self.reduce(load) if reduced is None else reduced
         rhs = load[self.order]

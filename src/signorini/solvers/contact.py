@@ -91,8 +91,21 @@ class DenseContact:
     def solve_free(self, free, rhs):
         """Solve ``S[free, free] x = rhs`` by Cholesky's method and a step of iterative refinement.
 
-        `free` is a mask of shape (n,); `rhs` and `x` have shape (free.sum(),). Raises SolverError
-        unless the block is positive definite beyond rounding.
+        Parameters
+        ----------
+        free : ndarray of bool, shape (n,)
+        rhs : ndarray, shape (free.sum(),)
+            Unit of the load.
+
+        Returns
+        -------
+        ndarray, shape (free.sum(),)
+            Unit of u.
+
+        Raises
+        ------
+        SolverError
+            Unless the block is positive definite beyond rounding.
         """
         K = self.S[np.ix_(free, free)]
         try:
@@ -112,7 +125,7 @@ class DenseContact:
 
 
 def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
-    """Solve ``w >= 0``, ``S w - q >= 0``, ``w . (S w - q) = 0``; the answer is a `ContactResult`.
+    """Solve ``w >= 0``, ``S w - q >= 0``, ``w . (S w - q) = 0``.
 
     Parameters
     ----------
@@ -128,16 +141,15 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
         True if the constants are the kernel of `S` (no Dirichlet side): some dof is always in
         contact.
 
+    Returns
+    -------
+    ContactResult
+
     Raises
     ------
     SolverError
         If the data are not finite or do not fit, `S` is not positive definite, `singular` and
         ``sum(q) >= 0`` (no unique solution), or the iteration ends without a solution.
-
-    Examples
-    --------
-    >>> solve_contact(DenseContact([[2.0, -1.0], [-1.0, 2.0]]), [1.0, -2.0]).w
-    array([0.5, 0. ])
     """
     q = _finite("q", q)
     # A lone dof of a floating body carries the whole load, whatever round-off its S is.
@@ -205,6 +217,22 @@ class Exchange:
         self.fewest, self.slack, self.changes, self.steps = np.inf, 1, 0, [0, 0, 0]
 
     def choose(self, active, wrong, depth):
+        """Choose the dofs that change sides in the next step.
+
+        Parameters
+        ----------
+        active : ndarray of bool, shape (n,)
+            The contact set at hand.
+        wrong : ndarray of bool, shape (n,)
+            The dofs whose sign is wrong.
+        depth : ndarray, shape (n,)
+            How far each violates its condition; the more negative, the worse. Unit of u.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices; at least one.
+        """
         violated, count, key = np.flatnonzero(wrong), np.count_nonzero(wrong), active.tobytes()
         if count < self.fewest:
             self.fewest, self.stage, self.seen = count, 0, set()

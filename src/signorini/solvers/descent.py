@@ -138,8 +138,24 @@ def _greatest_nearby(rows, values):
 
 
 def solved(level, cycle, load, tolerance):
-    """An approximate solution of A x = load by conjugate gradients, until a step changes it by less
-    than a share.
+    """An approximate solution of A x = load by conjugate gradients.
+
+    It ends when a step changes x by less than a share of its size.
+
+    Parameters
+    ----------
+    level : Level
+        The matrix A.
+    cycle : callable
+        Preconditioner, from a residual to a correction.
+    load : ndarray, shape (n,)
+    tolerance : float
+        That share, dimensionless.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Unit of u.
     """
     x, r = np.zeros_like(load), load.copy()
     p, rz = None, 1.0

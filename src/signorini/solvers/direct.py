@@ -43,11 +43,24 @@ _SAMPLES = 2  # random signs of the rounding errors whose effect is looked at
 
 
 def solve_direct(problem, guess=None):
-    """Solve any problem; arguments and errors as in `solvers.fourier.solve_fourier`.
+    """Solve any problem.
+
+    Parameters
+    ----------
+    problem : Problem
+    guess : ndarray of bool, shape (nc,), optional
+        Contact dofs believed to bind.
 
     Returns
     -------
     Found
+
+    Raises
+    ------
+    MeshError
+        If the factors do not fit this machine.
+    SolverError
+        As `solvers.fourier.solve_fourier`.
     """
     check_memory(
         problem.mesh.number_of_triangles,

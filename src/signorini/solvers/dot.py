@@ -11,6 +11,14 @@ def dot(x, y):
     Its threads gain little on a product of vectors, wait for each other where other processes have
     the processor, and make the last bits depend on their number.
 
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+
+    Returns
+    -------
+    float
+
     Examples
     --------
     >>> float(dot(np.array([1.0, 2.0]), np.array([3.0, 4.0])))

@@ -78,8 +78,7 @@ class Errors(NamedTuple):
 
 
 def bound_of(pushed, samples):
-    """Bounds of the errors of gaps or forces, shape (nc,), from what rounding does that pushes one
-    way or at random.
+    """Bounds of the errors of gaps or forces, from what rounding does to them.
 
     Parameters
     ----------
@@ -87,7 +86,12 @@ def bound_of(pushed, samples):
         The effect of all rounding pushing one way: a bound where inv(A) >= 0, and far too much on
         stretched CR cells.
     samples : ndarray, shape (k, nc)
-        Effects with random signs.
+        Effects of rounding with random signs.
+
+    Returns
+    -------
+    ndarray, shape (nc,)
+        Unit of the samples.
     """
     samples = np.abs(samples)
     low, high = SAFETY * samples.max(axis=0), _PESSIMISM * samples.max(initial=0.0)
@@ -100,10 +104,22 @@ def size_of(u):
 
 
 def wrong_signs(active, gap, force, errors, variation=None):
-    """Contact dofs whose gap, or force where they bind, is negative beyond its own error; shape
-    (nc,) of bool.
+    """Contact dofs whose sign is wrong beyond its own error.
 
-    With a `variation` of u, beyond the rounding of the number itself, if that is less.
+    That is the sign of the gap, or where a dof binds of its force.
+
+    Parameters
+    ----------
+    active : ndarray of bool, shape (nc,)
+    gap, force : ndarray, shape (nc,)
+        Unit of u; of the load.
+    errors : Errors
+    variation : float, optional
+        Of u. Where it is given, an error counts for no more than the rounding of the number itself.
+
+    Returns
+    -------
+    ndarray of bool, shape (nc,)
     """
     gaps, forces = errors.gaps, errors.forces
     if variation is not None:
@@ -113,11 +129,23 @@ def wrong_signs(active, gap, force, errors, variation=None):
 
 
 def to_close(u, active, gap, errors):
-    """Contact dofs that are to bind although their gap may be positive; shape (nc,) of bool.
+    """Contact dofs that are to bind although their gap may be positive.
 
     Above the obstacle by round-off alone they count as binding, so that no route decides them.
     Where rounding leaves too little of u with the undecided ones apart, it may leave more with them
     held.
+
+    Parameters
+    ----------
+    u : ndarray, shape (ndof,)
+    active : ndarray of bool, shape (nc,)
+    gap : ndarray, shape (nc,)
+        Unit of u.
+    errors : Errors
+
+    Returns
+    -------
+    ndarray of bool, shape (nc,)
     """
     variation = size_of(u)
     apart = ~active & (gap <= errors.gaps)
@@ -147,11 +175,15 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     u, active, iterations
         See `Found`.
     gap, force : ndarray, shape (nc,)
-        Of the contact dofs.
+        Of the contact dofs; unit of u, and of the load.
     errors : Errors
     released : Released, optional
         With the undecided dofs let go that bind, if there are any and a route knows it. What it
         moves may be on the other side, too.
+
+    Returns
+    -------
+    Found
     """
     released = released or Released(0.0, 0.0, 0.0)
     undecided = np.where(
@@ -176,8 +208,19 @@ def proved(u, active, iterations, gap, force, errors, released=None):
 
 
 def better(first, second):
-    """Of two answers the second, which binds where the first is undecided, unless it knows u and
-    forces less well.
+    """The better of two answers.
+
+    It is the second, which binds where the first is undecided, unless that one knows u and forces
+    less well.
+
+    Parameters
+    ----------
+    first : Found or None
+    second : Found
+
+    Returns
+    -------
+    Found
     """
     if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
         return second

@@ -293,8 +293,16 @@ class Cycle:
         return x
 
     def sweep(self, k, x, r, step):
-        """Gauss and Seidel's sweep for A x = r on level k in place, forwards (step 1) or backwards
-        (-1).
+        """Sweep once over the unknowns that move, by Gauss and Seidel, in place.
+
+        Parameters
+        ----------
+        k : int
+            Level.
+        x, r : ndarray, shape (n,)
+            The approximation of A x = r, which is improved, and the right-hand side.
+        step : {1, -1}
+            Forwards or backwards.
         """
         from pyamg.amg_core import gauss_seidel_indexed
 
@@ -320,5 +328,17 @@ class Eliminated:
 
 
 def preconditioner(levels, held):
-    """The `Cycle` of levels with some unknowns held; or `Eliminated`, where they ask for it."""
+    """A preconditioner with some unknowns held.
+
+    Parameters
+    ----------
+    levels : list of Level
+        Finest first.
+    held : ndarray of bool, shape (n,)
+
+    Returns
+    -------
+    Cycle or Eliminated
+        The latter where the levels ask for it.
+    """
     return (Eliminated if levels[0].robust else Cycle)(levels, held)

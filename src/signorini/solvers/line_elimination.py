@@ -131,6 +131,20 @@ class Vertices(Rows):
         )
 
     def extend(self, rows, load):
+        """All dofs, from those of the rows.
+
+        Parameters
+        ----------
+        rows : ndarray
+            The dofs of the eliminated rows, one row a line.
+        load : ndarray, shape (ndof,)
+            Not needed: each vertex lies in a row.
+
+        Returns
+        -------
+        ndarray, shape (ndof,)
+            Unit of u.
+        """
         u = np.zeros(self._shape())
         self.strip.turn(u)[self.rows, self.columns] = rows
         return u.ravel()
@@ -198,6 +212,19 @@ class Edges(Rows):
         return rows
 
     def extend(self, rows, load):
+        """All dofs, from those of the rows: the edges between follow from their own equations.
+
+        Parameters
+        ----------
+        rows : ndarray
+            The dofs of the eliminated rows, one row a line.
+        load : ndarray, shape (ndof,)
+
+        Returns
+        -------
+        ndarray, shape (ndof,)
+            Unit of u.
+        """
         u = np.zeros_like(load)
         cells = self.strip.back(rows[self.line :])
         hx, hy = self.grid.spacing

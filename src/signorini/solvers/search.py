@@ -79,7 +79,13 @@ class Search:
             self.exchange(wrong)
 
     def exchange(self, wrong):
-        """Let dofs of a wrong sign change sides."""
+        """Let dofs of a wrong sign change sides.
+
+        Raises
+        ------
+        SolverError
+            If too many contact sets were tried.
+        """
         if self.steps >= _MAX_STEPS:
             raise SolverError(
                 f"multigrid: no contact set in {_MAX_STEPS} steps, "

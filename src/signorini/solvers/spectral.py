@@ -15,8 +15,19 @@ _EPS = np.finfo(float).eps
 
 
 def contact_operator(basis, symbol):
-    """The operator S = mass * backward(symbol * forward(.)), dense for few dofs, by fast transforms
-    for many.
+    """The operator S = mass * backward(symbol * forward(.)).
+
+    It is a dense matrix for few dofs, and applied by fast transforms for many.
+
+    Parameters
+    ----------
+    basis : transforms.Basis
+    symbol : ndarray, shape (n,)
+        Eigenvalues of S in that basis, dimensionless.
+
+    Returns
+    -------
+    DenseContact or SpectralContact
     """
     spectral = SpectralContact(basis, symbol)
     if spectral.size > _DENSE_UP_TO:
@@ -66,6 +77,17 @@ class SpectralContact:
 
     def solve_free(self, free, rhs):
         """Solve S[free, free] x = rhs by preconditioned conjugate gradients, to rounding level.
+
+        Parameters
+        ----------
+        free : ndarray of bool, shape (n,)
+        rhs : ndarray, shape (free.sum(),)
+            Unit of the load.
+
+        Returns
+        -------
+        ndarray, shape (free.sum(),)
+            Unit of u.
 
         Raises
         ------

@@ -71,7 +71,14 @@ def stored(problem, solution, n, h):
 
 
 def write_solution(path, problem, solution, n, h):
-    """Store a solution of `problem` at level n, mesh width h; see `stored`."""
+    """Store a solution.
+
+    Parameters
+    ----------
+    path : str or Path
+    problem, solution, n, h
+        See `stored`.
+    """
     write_npz(path, kind="solution", **vars(stored(problem, solution, n, h)))
 
 

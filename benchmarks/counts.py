@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "src"))
 
 import signorini  # noqa: E402 (needs the path above)
 from signorini.storage import read_table, write_csv  # noqa: E402
-from signorini.studies.benchmark.counts import changes, count_scene  # noqa: E402
+from solve_counts import changes, count_scene  # noqa: E402
 
 
 def main():

@@ -9,7 +9,7 @@ import pytest
 
 import signorini
 from signorini.storage import read_table
-from signorini.studies.benchmark.counts import changes, count_scene
+from solve_counts import changes, count_scene
 
 FOLDER = Path(__file__).parents[2] / "config" / "scenes"
 RECORD = read_table(Path(__file__).parents[1] / "data" / "counts.csv")

@@ -1,8 +1,10 @@
 """The workflow's own form: layout, lint, logs, benchmarks, report."""
 
+import inspect
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 from project import FILES, ROOT
@@ -84,3 +86,17 @@ def test_no_two_files_of_tests_share_a_name():
     """Without packages pytest imports them by their names alone."""
     names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
     assert sorted(set(names)) == sorted(names)
+
+
+def test_the_limit_on_jobs_that_the_workflow_lifts_is_snakemakes():
+    """`onstart` sets a private attribute to None, which this version takes as: no limit."""
+    from snakemake.scheduling.job_scheduler import JobScheduler
+
+    names = JobScheduler.__init__.__code__.co_names
+    assert "job_rate_limiter" in names
+    source = Path(inspect.getsourcefile(JobScheduler)).read_text(encoding="utf-8")
+    assert source.count("self.job_rate_limiter is None") + source.count(
+        "self.job_rate_limiter is not None"
+    ) == len(re.findall(r"if self\.job_rate_limiter\b", source))
+    pinned = (ROOT / "requirements.txt").read_text(encoding="utf-8")
+    assert re.search(r"^snakemake==9\.", pinned, re.M)

@@ -12,10 +12,11 @@ import logging
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.exceptions import SceneError
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.fem.problem import discretize_on
 from signorini.scene.memory_check import check_level
 from signorini.scene.scene import naming
-from signorini.solvers import solve
+from signorini.solvers import METHODS, solve
 from signorini.solvers.stored import write_solution
 
 _log = logging.getLogger(__name__)
@@ -24,7 +25,7 @@ _log = logging.getLogger(__name__)
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    parser.add_argument("--element", choices=("P1", "CR"), help="the finite element")
+    parser.add_argument("--element", choices=ELEMENT_NAMES, help="the finite element")
     parser.add_argument("--n", type=int, help="the level, 1/h")
     parser.add_argument(
         "--reference",
@@ -33,7 +34,7 @@ def add_arguments(parser):
     )
     parser.add_argument(
         "--method",
-        choices=("auto", "fourier", "direct", "multigrid"),
+        choices=("auto", *METHODS),
         help="the route; default: the scene's solver.method",
     )
     parser.add_argument(

@@ -10,6 +10,7 @@ example:
 from signorini.commands.benchmark.options import add_settings, settings_of
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.solvers.stored import read_solution
 from signorini.storage import read_csv, write_csv
 from signorini.studies.benchmark.columns import POINT
@@ -19,7 +20,7 @@ from signorini.studies.benchmark.point import difference, measure, why_not
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    parser.add_argument("--element", choices=("P1", "CR"), required=True)
+    parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
     parser.add_argument("--n", type=int, required=True, help="the level, 1/h")
     parser.add_argument("--method", required=True, help="the route")
     parser.add_argument("--solution", required=True, metavar="FILE", help="by the scene's route")

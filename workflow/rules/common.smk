@@ -29,6 +29,7 @@ for variable, folder in {"PATH": Path(sys.executable).parent, "PYTHONPATH": LIBR
 from signorini.commands.sources import modules_from, sources
 from signorini.errors.norms import RATED
 from signorini.exceptions import SignoriniError
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
 from signorini.wording import nearest

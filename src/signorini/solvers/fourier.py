@@ -37,6 +37,8 @@ def why_not(problem):
             if problem.coefficient is None
             else "the coefficient is not 1"
         )
+    if problem.element not in _ELIMINATIONS:
+        return f"it eliminates no rows of {problem.element}"
     if len(grid.sides("contact")) > 1:
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:

@@ -19,7 +19,8 @@ RULES = {
 # A command that imports one of these computes; the others format, draw or check. What a study
 # measures tells its own time.
 COMPUTING = re.compile(
-    r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers|errors\.measure|report\.field"
+    r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers"
+    r"|errors\.measure|report\.field"
     r"|open_choices\.\w+|studies\.sensitivity\.errors) import (?!count_solves|VARIED)",
     re.M,
 )

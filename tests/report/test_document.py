@@ -77,8 +77,8 @@ in two lines.
 | :--- | ---: | ---: |
 | first |
 {% for row in rows %}
-| {{ row.name|cell }} | {{ row.size|fixed(".1f") }} |
-{{ none|fixed(".1f") }} |
+| {{ row.name|cell }} | {{ row.size|formatted(".1f") }} |
+{{ none|formatted(".1f") }} |
 {% endfor %}
 {% endcall %}
 """

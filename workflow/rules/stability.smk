@@ -53,7 +53,7 @@ rule stability_floor:
     log:
         f"{STABILITY}/logs/floor_{{piece}}.log",
     wildcard_constraints:
-        piece="(smooth|patch)-(P1|CR)|conditions|stretching",
+        piece="[A-Za-z0-9-]+",
     priority: 5
     params:
         content=content("stability round-off"),

@@ -21,6 +21,8 @@ STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")
 STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
 
+ROUND_OFF_FAMILIES = ["smooth", "patch"]
+
 STABILITY_SETTINGS = "config/stability.yaml"
 STABILITY_SCHEMA = LIBRARY / "signorini/studies/stability/settings.schema.yaml"
 
@@ -41,12 +43,13 @@ def success_files(wildcards):
 
 def round_off_files(wildcards):
     """Of a family of exact solutions a file for each element."""
-    names = [
-        piece
-        for name in suite()["round_off"]
-        for piece in ([f"{name}-P1", f"{name}-CR"] if name in ("smooth", "patch") else [name])
-    ]
-    return stability_pieces("floor", names)
+    return stability_pieces("floor", sum(map(round_off_pieces, suite()["round_off"]), []))
+
+
+def round_off_pieces(name):
+    if name not in ROUND_OFF_FAMILIES:
+        return [name]
+    return [f"{name}-{element}" for element in ELEMENT_NAMES]
 
 
 def digits_setting(wildcards, key, default):

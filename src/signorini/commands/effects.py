@@ -6,12 +6,11 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
+from signorini.errors.norms import ALWAYS_NAMED
 from signorini.open_choices.effects import effects_of_options
 from signorini.report.result_files import read_errors
 from signorini.scene.scene import naming
 from signorini.storage import write_csv
-
-_NORMS = ("l2", "h1_semi", "h1")
 
 
 def add_arguments(parser):
@@ -24,8 +23,10 @@ def add_arguments(parser):
 def run(arguments):
     """Solve with each option changed, and compare."""
     scene = scene_of(arguments.scene)
-    rows = read_errors(arguments.errors, scene.section("elements", "levels"), numbers=_NORMS)
-    errors = {(row["element"], int(row["n"]), norm): row[norm] for row in rows for norm in _NORMS}
+    rows = read_errors(arguments.errors, scene.section("elements", "levels"), numbers=ALWAYS_NAMED)
+    errors = {
+        (row["element"], int(row["n"]), norm): row[norm] for row in rows for norm in ALWAYS_NAMED
+    }
     with naming(scene.source):
         changes = effects_of_options(
             scene.problem,

@@ -83,6 +83,8 @@ NORMS = {
     ),
 }
 
+PAPER_NORMS = ("l2", "h1")  # of the paper's table
+PARTS_OF_H1 = ("l2", "h1_semi")  # whose squares add up to that of h1
 GRADIENT = ("h1_semi", "h1", "energy")  # that need the gradient
 DOMAIN = ("l2", *GRADIENT)
 CONTACT = ("trace_l2", "multiplier_l2", "critical_points")  # on the contact part

@@ -1,6 +1,6 @@
 """What the benchmark's figures have in common: small type, and a style for each series."""
 
-from signorini.errors.norms import NORMS
+from signorini.errors.norms import NORMS, PAPER_NORMS
 from signorini.figures.style import ELEMENT_STYLES, STYLE
 
 SMALL = STYLE | {
@@ -10,7 +10,7 @@ SMALL = STYLE | {
     "ytick.labelsize": 6,
     "legend.fontsize": 6,
 }
-TITLES = {norm: NORMS[norm].axis for norm in ("l2", "h1")}  # of the norms that are drawn
+TITLES = {norm: NORMS[norm].axis for norm in PAPER_NORMS}  # of the norms that are drawn
 # Of the routes, in the order of their appearance.
 LINES = ("-", (0, (4, 2)), (0, (1, 1.2)), (0, (5, 1, 1, 1)))
 

@@ -4,7 +4,7 @@ import math
 
 import matplotlib
 
-from signorini.errors.norms import NORMS
+from signorini.errors.norms import NORMS, PARTS_OF_H1
 from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.figures.heat import draw_heat, name_rows_and_columns
 from signorini.figures.style import (
@@ -29,7 +29,7 @@ SMALL = STYLE | {
 MARKERS = {element: style["marker"] for element, style in ELEMENT_STYLES.items()}
 COLOURS = {element: style["color"] for element, style in ELEMENT_STYLES.items()}
 NAMES = {element: facts.label for element, facts in ELEMENT_FACTS.items()}
-TITLES = {norm: NORMS[norm].symbol for norm in ("l2", "h1_semi")}  # of the norms that are drawn
+TITLES = {norm: NORMS[norm].symbol for norm in PARTS_OF_H1}  # of the norms that are drawn
 FAMILIES = {"smooth": ("error", "-"), "patch": ("round-off", (0, (4, 2)))}  # label and line
 DIGITS = (4, 16)  # shown on the darkest ground, and on white
 SOLVED = 1e-10  # stated accuracy, at most, of a solution that is called solved

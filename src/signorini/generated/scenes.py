@@ -3,6 +3,7 @@
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.fem.problem import discretize
 from signorini.generated.statements import by_side
 from signorini.mesh.grid import SIDES
@@ -64,6 +65,6 @@ def problems(draw):
     mapping = {"domain": domain, "boundary": by_side(labels), "data": data}
     mapping["load_quadrature"] = draw(_QUADRATURES)
     told = ProblemStatement.from_mapping(mapping)
-    problem = discretize(told, draw(st.sampled_from(("P1", "CR"))), draw(st.integers(1, 6)))
+    problem = discretize(told, draw(st.sampled_from(ELEMENT_NAMES)), draw(st.integers(1, 6)))
     assume(problem.contact.size)
     return problem

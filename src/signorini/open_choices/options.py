@@ -11,8 +11,6 @@ SLOPES = ("mean", "fit")
 OPTIONS = {"diagonal": DIAGONALS, "load": LOADS, "rule": RULES, "h1": tuple(H1), "slope": SLOPES}
 PAPER = {name: values[0] for name, values in OPTIONS.items()}
 
-ELEMENTS = ("P1", "CR")
-
 
 def count_solves(errors):
     """Solves that the rows took, with one of a reference per diagonal and load."""

@@ -16,7 +16,7 @@ A page is a Jinja2 template in a light markup::
     | word | number |
     | :--- | ---: |
     {% for row in rows %}
-    | {{ row.name|cell }} | {{ row.size|fixed(".2f") }} |
+    | {{ row.name|cell }} | {{ row.size|formatted(".2f") }} |
     {% endfor %}
     {% endcall %}
 

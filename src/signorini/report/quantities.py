@@ -1,5 +1,7 @@
 """Measured quantities in two digits, for pages."""
 
+from signorini.report.rounding import MISSING
+
 
 def seconds(value):
     """A time, in the unit that suits it."""
@@ -28,7 +30,7 @@ def factor(value):
     return f"{value:.2f}" if value < 0.995 else _two_digits(value)
 
 
-def fixed(value, form):
+def formatted(value, form):
     """A number in a format of Python; two dashes where there is none.
 
     Parameters
@@ -41,7 +43,7 @@ def fixed(value, form):
     -------
     str
     """
-    return "--" if value is None or value != value else format(value, form)
+    return MISSING if value is None or value != value else format(value, form)
 
 
 def cell(text):
@@ -58,7 +60,7 @@ FILTERS = {
     "thousands": thousands,
     "megabytes": megabytes,
     "factor": factor,
-    "fixed": fixed,
+    "formatted": formatted,
     "cell": cell,
 }
 """By name, for the templates of pages."""

@@ -1,6 +1,6 @@
 """Table 5.1, in LaTeX and in Markdown, from the rows of the pipeline's CSV files."""
 
-from signorini.errors.norms import NORMS, REFERENCE
+from signorini.errors.norms import NORMS, PAPER_NORMS, REFERENCE
 from signorini.errors.rates import NO_LOGARITHM, ROUND_OFF, SOUND, trouble_of
 from signorini.fem.element_facts import ABBREVIATIONS, ELEMENT_NAMES
 from signorini.report.rounding import MISSING, column, fixed
@@ -28,7 +28,7 @@ _PROOF = ("residual", "accuracy", "multiplier_accuracy")
 
 
 def error_table(
-    errors, rates, norms=("l2", "h1"), elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
+    errors, rates, norms=PAPER_NORMS, elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
 ):
     r"""Return Table 5.1 in LaTeX: a row for every N, a column for every norm and element.
 
@@ -83,7 +83,7 @@ def error_table(
 
 
 def markdown_table(
-    errors, rates, norms=("l2", "h1"), elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
+    errors, rates, norms=PAPER_NORMS, elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
 ):
     """Return Table 5.1 in Markdown.
 

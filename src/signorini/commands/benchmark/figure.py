@@ -8,10 +8,11 @@ from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_drawings
+from signorini.errors.norms import ALWAYS_NAMED
 from signorini.figures import benchmark
 from signorini.figures.style import save_figure
 from signorini.storage import read_csv, read_json
-from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, series
+from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS, series
 
 _FIGURES = {
     "error": lambda found, rivals, summary: benchmark.draw_error(found),
@@ -33,7 +34,7 @@ def add_arguments(parser):
 
 def run(arguments):
     """Draw."""
-    points = read_csv(arguments.folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ERRORS))
+    points = read_csv(arguments.folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ALWAYS_NAMED))
     rivals = read_csv(arguments.folder / "rivals.csv", numbers=RIVAL_NUMBERS)
     summary = read_json(arguments.folder / "summary.json")
     figure = _FIGURES[arguments.figure](series(points), rivals, summary)

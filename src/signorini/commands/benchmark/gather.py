@@ -8,10 +8,11 @@ from pathlib import Path
 
 from signorini.commands.benchmark.options import add_scenes, add_settings, scenes_of, settings_of
 from signorini.commands.catalogue import Outcome
+from signorini.errors.norms import ALWAYS_NAMED
 from signorini.report.result_files import read_errors
 from signorini.rivals import RIVALS
 from signorini.storage import read_csv, write_csv, write_json
-from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
+from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
 from signorini.studies.benchmark.settings import shown_levels
 from signorini.studies.benchmark.summary import summary, with_errors
 
@@ -56,7 +57,9 @@ def run(arguments):
 
 def _errors(files, asked):
     """Scene -> the rows of its errors."""
-    return {name: read_errors(path, asked[name], numbers=ERRORS) for name, path in files.items()}
+    return {
+        name: read_errors(path, asked[name], numbers=ALWAYS_NAMED) for name, path in files.items()
+    }
 
 
 def _rows(paths, numbers):

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from signorini.commands.benchmark.options import add_scenes, add_settings, scenes_of, settings_of
 from signorini.commands.catalogue import Outcome
+from signorini.errors.norms import ALWAYS_NAMED
 from signorini.storage import read_csv, read_json, write_text
-from signorini.studies.benchmark.columns import ERRORS, POINT_NUMBERS, RIVAL_NUMBERS
+from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS
 from signorini.studies.benchmark.report import page
 from signorini.studies.benchmark.settings import own_references
 
@@ -27,7 +28,7 @@ def run(arguments):
     """Write the page."""
     folder = arguments.folder
     shown = (
-        read_csv(folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ERRORS)),
+        read_csv(folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ALWAYS_NAMED)),
         read_csv(folder / "rivals.csv", numbers=RIVAL_NUMBERS),
         read_json(folder / "summary.json"),
         read_json(folder / "machine.json"),

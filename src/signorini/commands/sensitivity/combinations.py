@@ -5,22 +5,16 @@ example:
       --published config/published/table_5_1.csv -o FOLDER
 """
 
-from pathlib import Path
-
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_scene, scene_of
-from signorini.commands.sensitivity.options import add_quick, levels_of
+from signorini.commands.inputs import scene_of
+from signorini.commands.sensitivity.options import add_comparison, levels_of
 from signorini.storage import read_table, write_csv
 from signorini.studies.sensitivity.combinations import combinations, ratios, read_errors
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    add_scene(parser)
-    parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
-    parser.add_argument("--published", required=True, metavar="FILE")
-    add_quick(parser)
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+    add_comparison(parser)
 
 
 def run(arguments):

@@ -1,6 +1,19 @@
 """Which part of a scene the sensitivity study looks at."""
 
+from pathlib import Path
+
+from signorini.commands.inputs import add_scene
+
 _QUICK_LEVEL, _QUICK_REFERENCE = 16, 4
+
+
+def add_comparison(parser):
+    """Add what a comparison of all combinations with the published numbers takes."""
+    add_scene(parser)
+    parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
+    parser.add_argument("--published", required=True, metavar="FILE", help="the published numbers")
+    add_quick(parser)
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
 
 
 def add_quick(parser):

@@ -5,11 +5,9 @@ example:
       --published config/published/table_5_1.csv -o FOLDER
 """
 
-from pathlib import Path
-
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_scene, scene_of
-from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
+from signorini.commands.inputs import scene_of
+from signorini.commands.sensitivity.options import add_comparison, levels_of, reference_of
 from signorini.storage import read_table, write_text
 from signorini.studies.sensitivity.combinations import combinations, read_errors
 from signorini.studies.sensitivity.page import page
@@ -17,11 +15,7 @@ from signorini.studies.sensitivity.page import page
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    add_scene(parser)
-    parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
-    parser.add_argument("--published", required=True, metavar="FILE")
-    add_quick(parser)
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+    add_comparison(parser)
 
 
 def run(arguments):

@@ -3,7 +3,6 @@
 STAGES = ("mesh", "assembly", "solve")
 TIMES = (*STAGES, "total")
 COUNTS = ("products", "cycles", "factorisations", "steps", "inner")
-ERRORS = ("l2", "h1_semi", "h1")
 SERIES = ("scene", "element", "method")
 
 

@@ -1,9 +1,10 @@
 """The page of the benchmark: the numbers and rows that fill ``page.md.j2``."""
 
+from signorini.errors.norms import PAPER_NORMS
 from signorini.report.document import render
 from signorini.solvers.solution import INACCURATE, SOLVED
 from signorini.studies.benchmark.columns import COUNTS, SERIES, TOLERANCE, series
-from signorini.studies.benchmark.summary import NORMS, TARGETS, better, fastest
+from signorini.studies.benchmark.summary import TARGETS, better, fastest
 
 PAGE = "studies/benchmark/page.md.j2"
 
@@ -49,7 +50,7 @@ def _reach(found, reached):
     """What each element spends to reach each error by its fastest route, and which spends less."""
     best, rows = fastest(reached), []
     elements = sorted({element for _, element, _ in found}, reverse=True)  # P1 first
-    for norm in NORMS:
+    for norm in PAPER_NORMS:
         for scene in dict.fromkeys(scene for scene, _, _ in found):
             for target in TARGETS:
                 spent = best.get((scene, norm, target), {})

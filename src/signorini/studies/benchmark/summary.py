@@ -6,10 +6,10 @@ from itertools import pairwise, product
 
 import pandas as pd
 
+from signorini.errors.norms import ALWAYS_NAMED, PAPER_NORMS
 from signorini.errors.rates import slopes
-from signorini.studies.benchmark.columns import ERRORS, SERIES, series
+from signorini.studies.benchmark.columns import SERIES, series
 
-NORMS = ("l2", "h1")
 TARGETS = (1e-1, 1e-2, 1e-3, 1e-4)
 COSTS = ("total", "total_min", "total_max", "dofs", "memory")
 STATUSES = ("solved", "inaccurate", "failed", "left out", "absent")
@@ -37,7 +37,7 @@ def with_errors(points, errors):
     rows = []
     for row in points:
         known = found.get((row["scene"], *_level(row)), {})
-        rows.append(row | {norm: known.get(norm) for norm in ERRORS})
+        rows.append(row | {norm: known.get(norm) for norm in ALWAYS_NAMED})
     return rows
 
 
@@ -63,7 +63,7 @@ def reach(points, targets=TARGETS):
     """
     rows = []
     for key, found in series(points).items():
-        for norm, target in product(NORMS, targets):
+        for norm, target in product(PAPER_NORMS, targets):
             what = dict(zip(SERIES, key, strict=True)) | {"norm": norm, "target": target}
             status, costs = _cost([row for row in found if row[norm]], norm, target)
             rows.append(what | costs | {"status": status})
@@ -176,7 +176,7 @@ def _errors(found):
     """The errors that there are, by scene, element, n and norm."""
     frame = pd.DataFrame([{"scene": name, **row} for name, rows in found.items() for row in rows])
     frame = frame.astype({"n": int}).set_index(["scene", "element", "n"])
-    return frame[list(NORMS)].rename_axis(columns="norm").stack().dropna().astype(float)
+    return frame[list(PAPER_NORMS)].rename_axis(columns="norm").stack().dropna().astype(float)
 
 
 def comparisons(rivals):

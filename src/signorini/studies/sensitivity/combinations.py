@@ -4,9 +4,10 @@ import math
 
 import pandas as pd
 
+from signorini.errors.norms import ALWAYS_NAMED, PAPER_NORMS
 from signorini.errors.rates import slopes
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.open_choices.options import (
-    ELEMENTS,
     H1,
     LOADS,
     OPTIONS,
@@ -17,11 +18,10 @@ from signorini.open_choices.options import (
 from signorini.report.compare import compare
 from signorini.storage import read_csv
 
-NORMS = ("l2", "h1")
 TIE = "tie"
 _ROUND_OFF = 1e-9
 _SHARED = ["diagonal", "load", "rule"]  # of a set of errors
-SERIES = [(norm, element) for norm in NORMS for element in ELEMENTS]
+SERIES = [(norm, element) for norm in PAPER_NORMS for element in ELEMENT_NAMES]
 
 
 def read_errors(paths, levels):
@@ -38,8 +38,8 @@ def read_errors(paths, levels):
     list of dict
         Norms as numbers.
     """
-    every = {"load": LOADS, "rule": RULES, "element": ELEMENTS, "n": levels}
-    return [row for path in paths for row in read_csv(path, ("l2", "h1_semi", "h1"), every)]
+    every = {"load": LOADS, "rule": RULES, "element": ELEMENT_NAMES, "n": levels}
+    return [row for path in paths for row in read_csv(path, ALWAYS_NAMED, every)]
 
 
 def combinations(errors, published):
@@ -89,7 +89,7 @@ def _comparable(published, levels):
 def _wide(errors):
     """A row per diagonal, load, rule and level, in their order, a column per norm and element."""
     frame = pd.DataFrame(errors).astype({"n": int}).set_index([*_SHARED, "n", "element"])
-    frame = frame[["l2", "h1", "h1_semi"]].unstack(sort=False)
+    frame = frame[[*PAPER_NORMS, "h1_semi"]].unstack(sort=False)
     order = frame.groupby(_SHARED, sort=False).ngroup().rename("order")
     frame = frame.set_index(order, append=True).sort_index(level=["order", "n"])
     return frame.droplevel("order")
@@ -99,7 +99,7 @@ def _agreement(printed, levels, series, rates):
     """How well the published numbers are met; `rates` are slopes by norm and element."""
     error_rows = [
         {"element": e, "n": str(n), "l2": repr(series["l2", e][k]), "h1": repr(series["h1", e][k])}
-        for e in ELEMENTS
+        for e in ELEMENT_NAMES
         for k, n in enumerate(levels)
     ]
     rate_rows = [
@@ -124,7 +124,7 @@ def _agreement(printed, levels, series, rates):
 def _conclusion(series, rates):
     """The slopes, and which element has the smaller error."""
     columns = {f"slope_{norm}_{element}": rates[norm, element] for norm, element in SERIES}
-    for norm in NORMS:
+    for norm in PAPER_NORMS:
         pairs = zip(series[norm, "P1"], series[norm, "CR"], strict=True)
         quotients = [cr / p1 for p1, cr in pairs]
         mean = math.fsum(map(math.log, quotients)) / len(quotients)

@@ -7,7 +7,8 @@ all combinations that share them.
 from functools import cache
 
 from signorini.errors.overlay import Overlay
-from signorini.open_choices.options import ELEMENTS, LOADS, RULES
+from signorini.fem.element_facts import ELEMENT_NAMES
+from signorini.open_choices.options import LOADS, RULES
 from signorini.open_choices.solves import solutions, with_options
 
 
@@ -38,7 +39,7 @@ def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, ru
     level = cache(base.triangulations.level)
     overlay = cache(lambda n: Overlay(level(reference_n), level(n)))
     reference = "P1", reference_n
-    pairs = [(element, n) for n in levels for element in ELEMENTS]
+    pairs = [(element, n) for n in levels for element in ELEMENT_NAMES]
     rows = []
     for load in loads:
         solved = solutions(with_options(statement, diagonal, load), [reference, *pairs], level)

@@ -2,11 +2,11 @@
 
 import pandas as pd
 
+from signorini.errors.norms import PAPER_NORMS
 from signorini.fem.element_facts import ABBREVIATIONS
 from signorini.open_choices.options import OPTIONS, PAPER, count_solves
 from signorini.report.document import render
 from signorini.studies.sensitivity.combinations import (
-    NORMS,
     SERIES,
     TIE,
     one_at_a_time,
@@ -96,14 +96,16 @@ def _conclusions(frame, pairs, levels):
         "same_ranking": (rankings == rankings[paper]).sum(),
         "same_slopes": (slopes == slopes.loc[paper]).all(axis=1).sum(),
         "cr_better": (pairs["l2_ratio"] < 1.0).sum(),
-        "unstable": {norm: (by_pair[f"{norm}_smaller"].nunique() > 1).sum() for norm in NORMS},
+        "unstable": {
+            norm: (by_pair[f"{norm}_smaller"].nunique() > 1).sum() for norm in PAPER_NORMS
+        },
     }
 
 
 def _rankings(pairs, levels):
     """How often each element has the smaller error, per level and on the geometric mean."""
     rows = [{"n": n} for n in [*levels, "mean"]]
-    for norm in NORMS:
+    for norm in PAPER_NORMS:
         words = pairs[f"{norm}_smaller"].str.split(expand=True)
         words["mean"] = pairs[f"{norm}_ratio"].map(smaller)
         for row, column in zip(rows, words, strict=True):

@@ -1,7 +1,7 @@
 """What the stability suite promises, beside what it measured."""
 
+from signorini.report.curves import EPS
 from signorini.report.document import environment
-from signorini.studies.stability.summaries import EPS
 from signorini.studies.stability.verdicts import ERROR, LIMITS, RESIDUAL, answered, estimated
 
 DIGITS = 11

@@ -6,9 +6,10 @@ import numpy as np
 import pandas as pd
 
 from signorini.generated.bodies import FAMILIES
+from signorini.report.curves import EPS
 from signorini.rivals import RIVALS
 from signorini.storage import read_csv
-from signorini.studies.stability.summaries import EPS, in_order, solved_to
+from signorini.studies.stability.summaries import in_order, solved_to
 from signorini.studies.stability.verdicts import answered
 
 _TEXTS = (

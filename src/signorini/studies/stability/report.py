@@ -4,6 +4,9 @@ from itertools import product
 
 import numpy as np
 
+from signorini.errors.norms import NORMS
+from signorini.fem.element_facts import ABBREVIATIONS
+from signorini.report.curves import EPS
 from signorini.report.document import Table, render
 from signorini.rivals import RIVALS
 from signorini.studies import machine
@@ -13,8 +16,6 @@ from signorini.studies.stability.parts import errors_of, title
 from signorini.studies.stability.success import SLOW
 from signorini.studies.stability.verdicts import LIMITS
 
-_ELEMENTS = {"P1": "CF", "CR": "NCF"}
-_NORMS = {"l2": "L2", "h1_semi": "H1 seminorm", "h1": "H1"}
 _PACKAGES = (*machine.OURS, "clarabel", "highspy", "ngsolve", "osqp", "piqp", "proxsuite", "pyamg")
 _PAGE = "studies/stability/page.md.j2"
 
@@ -70,8 +71,8 @@ def page(parts, found, layout, time_limit, seeds=0):
         found=found,
         digits=_digits(found["digits"]),
         titles={row["solver"]: title(row["solver"]) for row in found["solvers"]},
-        elements=_ELEMENTS,
-        norms=_NORMS,
+        elements=ABBREVIATIONS,
+        norms=NORMS,
         limits=LIMITS,
         time_limit=time_limit,
         seeds=seeds,
@@ -80,7 +81,7 @@ def page(parts, found, layout, time_limit, seeds=0):
         slow=SLOW,
         absent=[rival for rival in RIVALS.values() if not rival.available()],
         variants=[key[7:] for key in found["digits"][0] if key.startswith("digits_")],
-        most_digits=-np.log10(summaries.EPS),
+        most_digits=-np.log10(EPS),
     )
 
 
@@ -100,10 +101,10 @@ def _digits(found):
     """A row for each level, a column for each norm and element."""
     cells = {(row["norm"], row["element"], row["n"]): row["digits"] for row in found}
     kinds = {cell[:2] for cell in cells}
-    columns = [kind for kind in product(_NORMS, _ELEMENTS) if kind in kinds]
+    columns = [kind for kind in product(NORMS, ABBREVIATIONS) if kind in kinds]
     rows = [
         (f"{n:g}" if n else "slope", *(f"{cells[*column, n]:.1f}" for column in columns))
         for n in sorted({n for *_, n in cells}, key=lambda n: n or np.inf)
     ]
-    heads = (f"{_NORMS[norm]} {_ELEMENTS[element]}" for norm, element in columns)
+    heads = (f"{NORMS[norm].text} {ABBREVIATIONS[element]}" for norm, element in columns)
     return Table(("N", *heads), rows)

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from signorini.errors.norms import PARTS_OF_H1
 from signorini.fem.elements import ELEMENTS
-from signorini.studies.stability.round_off import NORMS
+from signorini.report.curves import EPS
 from signorini.studies.stability.verdicts import accurate, answered, estimated
 
-EPS = float(np.finfo(float).eps)
 TOLERANCES = (1e-6, 1e-9)
 SHIFT = 0.01  # seconds; of the shifted geometric mean
 _KIND = ["family", "element"]
@@ -201,7 +201,7 @@ def crossings(rows):
     by_kind = dict(list(rows.sort_values("n").set_index("n").groupby(_KIND)))
     found = []
     for element in [element for element in ELEMENTS if ("smooth", element) in by_kind]:
-        for norm in NORMS:
+        for norm in PARTS_OF_H1:
             smooth, floor = (by_kind[family, element][norm] for family in ("smooth", "patch"))
             (order, error), (slope, least) = (_power(own.tail(_LAST)) for own in (smooth, floor))
             meeting = (least / error) ** (1.0 / (order - slope)) if least else None

@@ -6,6 +6,7 @@ them in.
 
 import numpy as np
 
+from signorini.mesh.bisection import bisect, bisectable
 from signorini.mesh.facets import unique_facets
 from signorini.mesh.triangulation import Triangulation
 
@@ -30,13 +31,13 @@ def bisected(mesh, marked_of, target_vertices):
         Without parent, its boundary labelled as that of `mesh`. Shapes stay bounded: by those of
         four similarity classes for each triangle of `mesh`.
     """
-    p, t, ends = mesh.p, _longest_first(mesh.p, mesh.t), mesh.ends
-    while p.shape[1] < target_vertices:
-        marked = marked_of(p, t)
+    mesh = bisectable(mesh)
+    while mesh.number_of_vertices < target_vertices:
+        marked = marked_of(mesh.p, mesh.t)
         if not marked.any():
             break
-        p, t, ends = _step(p, t, ends, marked)
-    return Triangulation(p, t, ends)
+        mesh = bisect(mesh, marked)
+    return Triangulation(mesh.p, mesh.t, mesh.ends)
 
 
 def towards(distance, exponent=0.5):
@@ -88,54 +89,3 @@ def corner_and_side(x, y):
     nearer.
     """
     return np.minimum(corner(x, y), y)
-
-
-def _longest_first(p, t):
-    """The triangles, turned so that the longest edge joins local vertices 0 and 1."""
-    lengths = [((p[:, t[i]] - p[:, t[j]]) ** 2).sum(axis=0) for i, j in ((0, 1), (1, 2), (2, 0))]
-    first = np.argmax(np.array(lengths) * (1 + 1e-9 * np.array([[2], [1], [0]])), axis=0)
-    return np.take_along_axis(t, (first + np.arange(3)[:, None]) % 3, axis=0)
-
-
-def _step(p, t, ends, marked):
-    """Vertices, triangles and labelled ends after one refinement."""
-    count = p.shape[1]
-    facets, t2f = unique_facets(t, count)
-    halved = _closed(t2f, marked, facets.shape[1])
-    middle = np.where(halved, count + np.cumsum(halved) - 1, -1)
-    ends = {label: _halves(pairs, facets, middle, count) for label, pairs in ends.items()}
-    p = np.hstack([p, p[:, facets[:, halved]].mean(axis=1)])
-    middles = middle[t2f]
-    t, later = _cut(t, middles[0], middles[[2, 1]])
-    t, _ = _cut(t, later, np.full((2, later.size), -1))
-    return p, t, ends
-
-
-def _closed(t2f, marked, count):
-    """The facets to halve: those of marked triangles, and the first of every triangle that has one
-    of them.
-    """
-    halved = np.zeros(count, dtype=bool)
-    halved[t2f[:, marked]] = True
-    while (late := halved[t2f].any(axis=0) & ~halved[t2f[0]]).any():
-        halved[t2f[0, late]] = True
-    return halved
-
-
-def _cut(t, middle, others):
-    """Bisect each triangle abc with a vertex amid ab (not -1) into cam and bcm; their own first
-    edges are ca and bc.
-    """
-    cut = middle >= 0
-    (a, b, c), m = t[:, cut], middle[cut]
-    later = np.concatenate([np.full(np.sum(~cut), -1), *others[:, cut]])
-    return np.hstack([t[:, ~cut], [c, a, m], [b, c, m]]), later
-
-
-def _halves(pairs, facets, middle, count):
-    """The ends of labelled facets, those with a vertex in the middle cut in two."""
-    start, end = np.minimum(*pairs), np.maximum(*pairs)
-    m = middle[np.searchsorted(facets[0] * count + facets[1], start.astype(np.int64) * count + end)]
-    cut = m >= 0
-    kept = np.stack([start, end])[:, ~cut]
-    return np.hstack([kept, [start[cut], m[cut]], [m[cut], end[cut]]])

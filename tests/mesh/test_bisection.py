@@ -83,7 +83,7 @@ def check_ancestors(mesh):
     areas = np.bincount(mesh.ancestor, mesh.area, minlength=coarse.number_of_triangles)
     np.testing.assert_allclose(areas, coarse.area, rtol=1e-12)
     centroids = mesh.p[:, mesh.t].mean(axis=1)
-    a, b, c = coarse.corners(mesh.ancestor).transpose(1, 0, 2)
+    a, b, c = (coarse.p[:, coarse.t[i, mesh.ancestor]] for i in range(3))
     frame = np.stack([b - a, c - a]).transpose(2, 1, 0)
     s, r = np.linalg.solve(frame, (centroids - a).T[..., None])[..., 0].T
     assert min(s.min(), r.min(), (1 - s - r).min()) > 0

@@ -34,7 +34,7 @@ def measure(path, element, n, repeats):
         discretised = time.process_time()
         solution = signorini.solve(problem)
         solved = time.process_time()
-        ExactErrors(scene.problem.exact).of(problem.mesh, element, solution.u)
+        ExactErrors(scene.problem_statement.exact).of(problem.mesh, element, solution.u)
         ends = start, discretised, solved, time.process_time()
         for step, begin, end in zip(STEPS, ends, ends[1:], strict=False):
             found[step].append(end - begin)

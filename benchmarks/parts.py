@@ -109,7 +109,7 @@ def measure(problem):
 
 def report(element, n, repeats):
     """Print an element's table."""
-    statement = scene().problem
+    statement = scene().problem_statement
     solve(discretize_on(refined_square(16), element, statement), "multigrid")  # imports
     found = []
     for _ in range(repeats):

@@ -161,7 +161,7 @@ def refined_square(n):
     """The paper's square as a general triangulation, refined from 4 by 4 cells, with its matrix."""
     from signorini.mesh.triangulation import Triangulation
 
-    coarse = scene().problem.triangulations.level(4)
+    coarse = scene().problem_statement.triangulations.level(4)
     ends = {label: coarse.facets[:, coarse.boundary_facets(label)] for label in set(coarse.labels)}
     mesh = Triangulation(coarse.p, coarse.t, ends)
     for _ in range((n // 4).bit_length() - 1):
@@ -178,7 +178,7 @@ def run_multigrid(tolerance=None):
         from signorini.solvers.hierarchy import build_hierarchy
         from signorini.solvers.multigrid import solve_multigrid
 
-        statement = scene().problem
+        statement = scene().problem_statement
         signorini.solve(
             discretize_on(refined_square(16), element, statement), "multigrid"
         )  # imports

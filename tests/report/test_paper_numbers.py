@@ -30,13 +30,15 @@ class Statement:
     """The scene's statement with changes; unlike it, a key for the cache."""
 
     def __init__(self, **changes):
-        self.problem = replace(SCENE.problem, **changes)
+        self.problem_statement = replace(SCENE.problem_statement, **changes)
 
 
 PAPER = Statement()
 OTHER_OPTIONS = {
     # option that the paper does not state: what the table is computed with instead
-    "diagonal": {"statement": Statement(domain=SCENE.problem.domain | {"diagonal": "rising"})},
+    "diagonal": {
+        "statement": Statement(domain=SCENE.problem_statement.domain | {"diagonal": "rising"})
+    },
     "load": {"statement": Statement(load_quadrature="exact")},
     "load by midpoints": {"statement": Statement(load_quadrature="midpoints")},
     "norm": {"norm": "h1_semi"},

@@ -137,7 +137,7 @@ def test_levels_that_fit_are_judged_without_numpy():
 import sys
 from signorini.scene.memory_check import check_level
 from signorini.scene.read import load_scene
-check_level(load_scene({scene!r}).problem, "CR", 512, "auto")
+check_level(load_scene({scene!r}).problem_statement, "CR", 512, "auto")
 assert not {{"numpy", "signorini.mesh.domain", "signorini.fem.problem"}} & set(sys.modules)
 """
     subprocess.run(

@@ -21,7 +21,7 @@ def test_a_scene_is_what_its_file_says(load):
     assert scene.elements == ["P1", "CR"]
     assert scene.levels == [2, 4, 8]
     assert scene.truth == {"kind": "reference", "element": "P1", "n": 32}
-    assert scene.problem.data.f.text == "2*pi*sin(2*pi*x)"
+    assert scene.problem_statement.data.f.text == "2*pi*sin(2*pi*x)"
     assert scene.section("levels", "elements") == {"levels": [2, 4, 8], "elements": ["P1", "CR"]}
 
 
@@ -141,7 +141,7 @@ def test_an_exact_truth_is_checked_when_the_scene_is_loaded_not_when_it_is_read(
     path = tmp_path / "kink.yaml"
     path.write_text(EXACT, encoding="utf-8")
     scene = read_scene(path)
-    assert scene.problem.needs_mesh
+    assert scene.problem_statement.needs_mesh
     message = rf"^{re.escape(str(path))}: truth: k du/dnu of the exact solution jumps"
     with pytest.raises(SceneError, match=message):
         scene.check()

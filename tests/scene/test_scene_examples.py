@@ -6,7 +6,9 @@ import importlib
 import pytest
 
 
-@pytest.mark.parametrize("name", ["scene.read", "scene.schema", "scene.statement", "wording"])
+@pytest.mark.parametrize(
+    "name", ["scene.read", "scene.scene", "scene.schema", "scene.statement", "wording"]
+)
 def test_the_examples_of_the_docstrings_run(name):
     module = importlib.import_module(f"signorini.{name}")
     failed, tried = doctest.testmod(module, optionflags=doctest.ELLIPSIS)

@@ -120,7 +120,7 @@ def test_the_sides_of_a_polygon_may_be_named_as_labels_are(load):
     scene = load(
         polygon.replace(LABELLED, "contact: dirichlet, dirichlet: contact, neumann: neumann")
     )
-    mesh = scene.problem.triangulations.level(2)
+    mesh = scene.problem_statement.triangulations.level(2)
     assert (mesh.p[0, mesh.boundary_vertices("contact")] == 1).all()
     assert (mesh.p[1, mesh.boundary_vertices("dirichlet")] == 0).all()
 

@@ -56,8 +56,8 @@ def test_every_scene_says_what_it_is(name):
 def test_an_exact_scene_finds_what_it_expects(tmp_path, name):
     scene = read(name)
     assert "expect" in scene.document
-    domain = scene.problem.triangulations
-    errors = against_exact(scene.problem, domain, scene.document["norms"])
+    domain = scene.problem_statement.triangulations
+    errors = against_exact(scene.problem_statement, domain, scene.document["norms"])
     table = []
     for element in scene.elements:
         for n in scene.levels:

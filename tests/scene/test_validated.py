@@ -31,7 +31,7 @@ def test_it_is_read_as_it_was(scene, tmp_path):
     assert found == scene
     assert found.statement == scene.statement
     assert found.reference_note == scene.reference_note
-    assert found.problem.data == scene.problem.data
+    assert found.problem_statement.data == scene.problem_statement.data
 
 
 def test_it_is_written_again_only_where_it_changed(scene, tmp_path):

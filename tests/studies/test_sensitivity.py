@@ -33,7 +33,7 @@ COARSE = (2, 4, 8, 16)
 @cache
 def falling():
     """The rows of the paper's diagonal, as the study has them."""
-    return errors_of_diagonal(SCENE.problem, "falling", SCENE.levels, SCENE.truth["n"])
+    return errors_of_diagonal(SCENE.problem_statement, "falling", SCENE.levels, SCENE.truth["n"])
 
 
 @cache
@@ -42,7 +42,7 @@ def quick():
     return [
         row
         for diagonal in DIAGONALS
-        for row in errors_of_diagonal(SCENE.problem, diagonal, COARSE, 64)
+        for row in errors_of_diagonal(SCENE.problem_statement, diagonal, COARSE, 64)
     ]
 
 
@@ -165,7 +165,7 @@ def test_combinations_share_solves(monkeypatch):
     monkeypatch.setattr(
         solves, "solve", lambda problem: solved.append(problem.b.size) or solve(problem)
     )
-    rows = errors_of_diagonal(SCENE.problem, "criss-cross", (2, 4), 8)
+    rows = errors_of_diagonal(SCENE.problem_statement, "criss-cross", (2, 4), 8)
     assert len(solved) == len(LOADS) * (2 * 2 + 1)
     assert count_solves(rows) == len(solved)
     assert len(rows) == len(LOADS) * 4 * len(RULES)

@@ -10,7 +10,7 @@ from signorini.scene.validated import keep_validated
 @reported
 def scene(name):
     asked = written(name)
-    if asked.problem.needs_mesh:
+    if asked.problem_statement.needs_mesh:
         check_once(asked)
     return asked
 

@@ -29,7 +29,7 @@ def run(arguments):
     }
     with naming(scene.source):
         changes = effects_of_options(
-            scene.problem,
+            scene.problem_statement,
             errors,
             scene.elements,
             scene.levels,

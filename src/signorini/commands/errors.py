@@ -54,7 +54,7 @@ def run(arguments):
 def _errors(scene, domain, norms, reference):
     """A function from a stored solution to its errors."""
     if scene.truth["kind"] == "exact":
-        return against_exact(scene.problem, domain, norms)
+        return against_exact(scene.problem_statement, domain, norms)
     if reference:
         truth = read_solution(reference)
     else:
@@ -77,8 +77,8 @@ def _solve(scene, element, n):
     from signorini.solvers.stored import stored
 
     _log.info("%s n = %d: solving", element, n)
-    domain, method = scene.problem.triangulations, scene.document["solver"]["method"]
-    problem = discretize_on(domain.level(n), element, scene.problem)
+    domain, method = scene.problem_statement.triangulations, scene.document["solver"]["method"]
+    problem = discretize_on(domain.level(n), element, scene.problem_statement)
     return stored(problem, solve(problem, method), n, domain.mesh_size(n))
 
 

@@ -64,7 +64,7 @@ def domain_of(scene, mesh):
     Rectangle or Refined
     """
     if mesh is None:
-        return scene.problem.triangulations
+        return scene.problem_statement.triangulations
     from signorini.mesh.domain import read_domain
 
     return read_domain(mesh)

@@ -18,7 +18,7 @@ def add_arguments(parser):
 def run(arguments):
     """Make the mesh and write it."""
     scene = scene_of(arguments.scene)
-    domain, coarsest = scene.problem.triangulations, scene.levels[0]
+    domain, coarsest = scene.problem_statement.triangulations, scene.levels[0]
     write_domain(arguments.output, domain)
     kind, triangles = scene.document["domain"]["kind"], domain.level(coarsest).number_of_triangles
     return Outcome(

@@ -50,11 +50,11 @@ def run(arguments):
     method = arguments.method or scene.document["solver"]["method"]
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)
-        check_level(scene.problem, element, n, method, domain)
+        check_level(scene.problem_statement, element, n, method, domain)
         _log.info("%s n = %d: mesh", element, n)
         mesh = domain.level(n)
         _log.info("%s n = %d: discretising, %d triangles", element, n, mesh.number_of_triangles)
-        problem = discretize_on(mesh, element, scene.problem)
+        problem = discretize_on(mesh, element, scene.problem_statement)
         _log.info("%s n = %d: solving, %d free dofs", element, n, problem.free.size)
         solution = solve(problem, method)
     if arguments.output:

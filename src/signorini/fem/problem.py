@@ -221,7 +221,7 @@ def discretize(scene, element, n):
     >>> problem.contact.size
     8
     """
-    statement = getattr(scene, "problem", scene)
+    statement = getattr(scene, "problem_statement", scene)
     find_element(element)
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
         raise SceneError(

@@ -62,7 +62,34 @@ def read_scene(path):
     """
     path = Path(path)
     check_name(path.stem)
-    written = load_yaml(path)
+    return _validated_scene(load_yaml(path), path.stem, path)
+
+
+def scene_of_mapping(mapping, name, folder):
+    """`Scene.from_dict`."""
+    if not isinstance(mapping, dict):
+        raise SceneError(
+            f"{name}: a {type(mapping).__name__} is no mapping; give the sections of a scene"
+        )
+    check_name(name)
+    scene = _validated_scene(plain(mapping), name, Path(folder, name))
+    scene.check()
+    return scene
+
+
+def plain(value):
+    """A value as YAML would give it: tuples and arrays as lists, numbers of NumPy as Python's."""
+    if isinstance(value, dict):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    return value
+
+
+def _validated_scene(written, name, path):
+    """A `Scene`, from a document as it was written, and the path of its file."""
     document = validated(written, scene_schema(), path)
     truth = document["truth"]["kind"]
     if truth == "none" and "outputs" not in written:
@@ -74,8 +101,8 @@ def read_scene(path):
         if document["domain"]["kind"] == "mesh":
             document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
         note = reference_note(document["truth"], document["levels"], document["elements"])
-        scene = Scene(path.stem, document, path, note)
-        check_critical_points(document, scene.problem.exact)
+        scene = Scene(name, document, path, note)
+        check_critical_points(document, scene.problem_statement.exact)
     return scene
 
 

@@ -30,8 +30,71 @@ class Scene:
     source: Path | None = None
     reference_note: str | None = None
 
+    @classmethod
+    def from_dict(cls, mapping, name="scene", folder="."):
+        """A scene from a mapping: what `load_scene` reads, without a file.
+
+        Parameters
+        ----------
+        mapping : dict
+            The sections of a scene; see config/README.md. Tuples and numbers of NumPy may stand for
+            lists and numbers.
+        name : str, optional
+            In place of the name of a file, also in messages.
+        folder : str or Path, optional
+            Where the file would be: the paths of other files are relative to it.
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        SceneError, FormulaError, MeshError
+            As `load_scene`.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> scene = Scene.from_dict(
+        ...     {
+        ...         "domain": {"kind": "rectangle"},
+        ...         "boundary": sides,
+        ...         "data": {"f": "2*pi*sin(2*pi*x)"},
+        ...         "levels": [4, 8],
+        ...     }
+        ... )
+        >>> scene.problem("CR", 8).contact.size
+        8
+        """
+        from signorini.scene.read import scene_of_mapping
+
+        return scene_of_mapping(mapping, name, folder)
+
+    def problem(self, element, n):
+        """The discrete problem of one element and level; as `discretize`.
+
+        Parameters
+        ----------
+        element : {"P1", "CR"}
+        n : int
+            The level, n = 1/h; any, not only those of the scene.
+
+        Returns
+        -------
+        Problem
+
+        Raises
+        ------
+        SceneError, MeshError, FormulaError
+            As `discretize`.
+        """
+        from signorini.fem.problem import discretize
+
+        return discretize(self, element, n)
+
     @cached_property
-    def problem(self):
+    def problem_statement(self):
         """What a discretisation depends on, and nothing else of the scene: a `ProblemStatement`."""
         from signorini.scene.statement import ProblemStatement
 
@@ -46,7 +109,7 @@ class Scene:
             See `ProblemStatement.check`.
         """
         with naming(self.source):
-            self.problem.check()
+            self.problem_statement.check()
 
     def section(self, *keys):
         """The parts of the document with the names `keys`, as a new dict."""

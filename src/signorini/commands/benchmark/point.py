@@ -45,7 +45,7 @@ def run(arguments):
 def _measured(scene, settings, arguments):
     warm_up = max(arguments.n // 2, scene.levels[0])
     what = (arguments.element, arguments.n, arguments.method)
-    row, u = measure(scene.problem, *what, settings["repeats"], warm_up)
+    row, u = measure(scene.problem_statement, *what, settings["repeats"], warm_up)
     if u is not None:
         stored = read_solution(arguments.solution)
         row |= {"h": stored.h, "difference": difference(stored.u, u)}

@@ -28,7 +28,7 @@ def run(arguments):
     settings, scene = settings_of(arguments)["rivals"], scene_of(arguments.scene)
     levels, seconds = settings["levels"], settings["seconds"]
     domain = domain_of(scene, arguments.mesh)
-    task = (arguments.rival, domain, scene.problem, arguments.element, levels, seconds)
+    task = (arguments.rival, domain, scene.problem_statement, arguments.element, levels, seconds)
     rows, trouble = rows_apart(compare(*task), time_limit(seconds))
     if trouble:
         missing = [n for n in levels if n not in {row.get("n") for row in rows}]

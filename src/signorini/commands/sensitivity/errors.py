@@ -24,7 +24,10 @@ def run(arguments):
     """Solve, measure and write."""
     scene, quick = scene_of(arguments.scene), arguments.quick
     rows = errors_of_diagonal(
-        scene.problem, arguments.diagonal, levels_of(scene, quick), reference_of(scene, quick)
+        scene.problem_statement,
+        arguments.diagonal,
+        levels_of(scene, quick),
+        reference_of(scene, quick),
     )
     write_csv(arguments.output, rows)
     return Outcome(f"sensitivity: {arguments.diagonal}, {count_solves(rows)} solves")

@@ -33,7 +33,7 @@ def run(arguments):
 
     scene = scene_of(arguments.scene)
     asked = asked_of(scene, arguments.quick)
-    rows = variant(arguments.variant, scene.problem, asked, arguments.samples)
+    rows = variant(arguments.variant, scene.problem_statement, asked, arguments.samples)
     if arguments.threads > 1:
         rows = [row | {"variant": f"{arguments.threads}-threads-{row['variant']}"} for row in rows]
     write_csv(arguments.output, rows)

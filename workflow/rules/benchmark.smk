@@ -19,7 +19,7 @@ rule benchmark_machine:
 
 rule benchmark_point:
     input:
-        library("benchmark point"),
+        library("benchmark point", method=routes),
         scene=ancient(scene_file),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         before=point_before,
@@ -47,7 +47,7 @@ rule benchmark_point:
 
 rule benchmark_rival:
     input:
-        library("benchmark rival"),
+        library("benchmark rival", rival=rivals),
         scene=ancient(scene_file),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         mesh=mesh_file,
@@ -80,12 +80,12 @@ use rule reference as benchmark_reference with:
         statement=statement,
         method=method,
         element="P1",
-        n=lambda wildcards: measured()["scenes"][wildcards.scene]["reference"],
+        n=benchmark_reference_level,
 
 
 use rule errors as benchmark_errors with:
     input:
-        library("errors"),
+        library("errors", scene=benchmark_scene_names),
         scene=ancient(scene_file),
         mesh=mesh_file,
         reference=lambda wildcards: [f"{BENCHMARK}/references/{wildcards.scene}.npz"]
@@ -138,7 +138,7 @@ rule benchmark_gather:
 
 rule benchmark_figure:
     input:
-        library("benchmark figure"),
+        library("benchmark figure", figure=BENCHMARK_FIGURES),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
         summary=f"{BENCHMARK}/summary.json",

@@ -42,16 +42,34 @@ def benchmark_errors_asked(wildcards):
     return as_json([[s.elements, s.levels, shown_levels(measured(), s)] for s in asked])
 
 
-def points(wildcards):
-    from signorini.solvers import (
-        METHODS,
-    )  # which needs NumPy: only where the benchmark is asked for
+def benchmark_scene_names():
+    return measured()["scenes"]
 
+
+@reported
+def benchmark_reference_level(wildcards):
+    check_known("benchmark", "scene", wildcards.scene, benchmark_scene_names)
+    return measured()["scenes"][wildcards.scene]["reference"]
+
+
+def routes():
+    from signorini.solvers import METHODS  # NumPy: only for the benchmark
+
+    return list(METHODS)
+
+
+def rivals():
+    from signorini.rivals import RIVALS  # NumPy: only for the benchmark
+
+    return list(RIVALS)
+
+
+def points(wildcards):
     return [
         f"{BENCHMARK}/points/{name}/{element}/{method}/n{n}.csv"
         for name in measured()["scenes"]
         for element in scene(name).elements
-        for method in METHODS
+        for method in routes()
         for n in measured_levels(measured(), scene(name))
     ]
 
@@ -64,13 +82,11 @@ def point_before(wildcards):
 
 
 def rival_files(wildcards):
-    from signorini.rivals import RIVALS
-
     return [
         f"{BENCHMARK}/rivals/{name}/{element}/{rival}.csv"
         for name in measured()["scenes"]
         for element in scene(name).elements
-        for rival in RIVALS
+        for rival in rivals()
     ]
 
 

@@ -86,9 +86,19 @@ def check_results():
             )
 
 
-def library(command):
-    """An input: the files of the library that a command can load. An edit of any of them runs its jobs again."""
-    return lambda wildcards: library_files(command)
+def library(command, **known):
+    """An input: the files of the library that a command can load. An edit of any of them runs its jobs again.
+
+    `known` has the values that a wildcard may have, or a function that lists them; others are refused before any job.
+    """
+
+    @reported
+    def files(wildcards):
+        for wildcard, names in known.items():
+            check_known(command, wildcard, getattr(wildcards, wildcard), names)
+        return library_files(command)
+
+    return files
 
 
 @cache

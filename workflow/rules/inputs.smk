@@ -4,6 +4,7 @@ from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.scene.read import check_name, read_scene
 from signorini.scene.validated import keep_validated
+from signorini.wording import listed
 
 
 @cache
@@ -119,10 +120,16 @@ def mesh_key(name):
 
 
 @cache
+@reported
 def scene_of_mesh(key):
     """Of the scenes asked for first, so that a broken file elsewhere in config/scenes does no harm."""
-    names = dict.fromkeys([*CONFIG["scenes"], *known_scenes()])
-    return next(name for name in names if mesh_key(name) == key)
+    keys = {}
+    for name in dict.fromkeys([*CONFIG["scenes"], *known_scenes()]):
+        keys.setdefault(mesh_key(name), name)
+        if key in keys:
+            return keys[key]
+    of_scenes = listed(f"{known} of {name}" for known, name in keys.items())
+    raise SignoriniError(f"results/meshes/{key}.npz: the mesh of no scene; known: {of_scenes}")
 
 
 def mesh_source(wildcards):

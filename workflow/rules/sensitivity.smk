@@ -8,14 +8,16 @@ SENSITIVITY = f"{STUDIES}/sensitivity"
 
 rule sensitivity_errors:
     input:
-        library("sensitivity errors"),
+        library("sensitivity errors", diagonal=DIAGONALS),
         scene=ancient(paper_scene),
     output:
-        f"{SENSITIVITY}/errors/{{diagonal,[a-z-]+}}.csv",
+        f"{SENSITIVITY}/errors/{{diagonal}}.csv",
     log:
         f"{SENSITIVITY}/logs/errors_{{diagonal}}.log",
     benchmark:
         f"{SENSITIVITY}/benchmarks/errors_{{diagonal}}.tsv"
+    wildcard_constraints:
+        diagonal=NAME,
     priority: lambda wildcards: DIAGONALS.index(wildcards.diagonal)
     params:
         content=content("sensitivity errors"),

@@ -3,7 +3,7 @@
 
 rule stability_success:
     input:
-        library("stability success"),
+        library("stability success", family=lambda: suite()["families"]),
     output:
         f"{STABILITY}/success/{{family}}.csv",
     log:
@@ -23,7 +23,7 @@ rule stability_success:
 
 rule stability_digits:
     input:
-        library("stability digits"),
+        library("stability digits", variant=lambda: suite()["digits"]),
         scene=ancient(paper_scene),
     output:
         f"{STABILITY}/digits/{{variant}}.csv",
@@ -47,13 +47,13 @@ rule stability_digits:
 
 rule stability_floor:
     input:
-        library("stability round-off"),
+        library("stability round-off", piece=round_off_pieces),
     output:
         f"{STABILITY}/floor/{{piece}}.csv",
     log:
         f"{STABILITY}/logs/floor_{{piece}}.log",
     wildcard_constraints:
-        piece="[A-Za-z0-9-]+",
+        piece=NAME,
     priority: 5
     params:
         content=content("stability round-off"),
@@ -65,13 +65,13 @@ rule stability_floor:
 
 rule stability_extremes:
     input:
-        library("stability extremes"),
+        library("stability extremes", kind=lambda: suite()["extremes"]),
     output:
         f"{STABILITY}/extremes/{{kind}}.csv",
     log:
         f"{STABILITY}/logs/extremes_{{kind}}.log",
     wildcard_constraints:
-        kind="scaling|sizes|offsets|critical-points|contact-sets|walk",
+        kind=NAME,
     params:
         content=content("stability extremes"),
         values=lambda wildcards: suite()["extremes"][wildcards.kind],

@@ -21,8 +21,6 @@ STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")
 STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
 
-ROUND_OFF_FAMILIES = ["smooth", "patch"]
-
 STABILITY_SETTINGS = "config/stability.yaml"
 STABILITY_SCHEMA = LIBRARY / "signorini/studies/stability/settings.schema.yaml"
 
@@ -42,14 +40,14 @@ def success_files(wildcards):
 
 
 def round_off_files(wildcards):
-    """Of a family of exact solutions a file for each element."""
-    return stability_pieces("floor", sum(map(round_off_pieces, suite()["round_off"]), []))
+    return stability_pieces("floor", round_off_pieces())
 
 
-def round_off_pieces(name):
-    if name not in ROUND_OFF_FAMILIES:
-        return [name]
-    return [f"{name}-{element}" for element in ELEMENT_NAMES]
+def round_off_pieces():
+    """What is measured of round-off: of a family of exact solutions a piece for each element."""
+    from signorini.studies.stability.round_off import PIECES  # NumPy: only for the suite
+
+    return [piece for piece in PIECES if piece.partition("-")[0] in suite()["round_off"]]
 
 
 def digits_setting(wildcards, key, default):

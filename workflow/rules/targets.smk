@@ -6,6 +6,13 @@ WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(pr
 FIGURES = ["figure_5_1", "figure_5_2", "figure_5_3"]
 
 
+def check_known(place, wildcard, value, names):
+    """Refuse a value of a wildcard that is not one of the names, or of those that a function lists."""
+    known = names() if callable(names) else names
+    if value not in known:
+        raise SignoriniError(f"{place}: there is no {wildcard} {value!r}; {nearest(value, known)}")
+
+
 def paper_scene(wildcards):
     """The scene `paper`, validated."""
     return validated_file("paper")

@@ -11,6 +11,7 @@ from signorini.commands.benchmark.options import add_settings, settings_of
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.fem.element_facts import ELEMENT_NAMES
+from signorini.solvers import METHODS
 from signorini.solvers.stored import read_solution
 from signorini.storage import read_csv, write_csv
 from signorini.studies.benchmark.columns import POINT
@@ -22,7 +23,7 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
     parser.add_argument("--n", type=int, required=True, help="the level, 1/h")
-    parser.add_argument("--method", required=True, help="the route")
+    parser.add_argument("--method", choices=METHODS, required=True, help="the route")
     parser.add_argument("--solution", required=True, metavar="FILE", help="by the scene's route")
     parser.add_argument("--before", metavar="FILE", help="the point of the level before, .csv")
     add_settings(parser)

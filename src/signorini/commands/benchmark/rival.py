@@ -8,6 +8,7 @@ from signorini.commands.benchmark.options import add_settings, settings_of
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.fem.element_facts import ELEMENT_NAMES
+from signorini.rivals import RIVALS
 from signorini.storage import write_csv
 from signorini.studies.benchmark.columns import RIVAL
 from signorini.studies.benchmark.comparison import compare, rows_apart, time_limit
@@ -17,7 +18,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
     parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
-    parser.add_argument("--rival", required=True, metavar="NAME")
+    parser.add_argument("--rival", choices=RIVALS, required=True, metavar="NAME")
     parser.add_argument("--mesh", metavar="FILE", help="of `signorini mesh`; else made anew")
     add_settings(parser)
     add_output(parser, "the rows, .csv")

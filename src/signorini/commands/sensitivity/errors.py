@@ -7,7 +7,7 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.commands.sensitivity.options import add_quick, levels_of, reference_of
-from signorini.open_choices.options import count_solves
+from signorini.open_choices.options import DIAGONALS, count_solves
 from signorini.storage import write_csv
 from signorini.studies.sensitivity.errors import errors_of_diagonal
 
@@ -15,7 +15,7 @@ from signorini.studies.sensitivity.errors import errors_of_diagonal
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    parser.add_argument("--diagonal", required=True, metavar="NAME")
+    parser.add_argument("--diagonal", choices=DIAGONALS, required=True)
     add_quick(parser)
     add_output(parser, "the errors, .csv")
 

@@ -7,12 +7,12 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
 from signorini.storage import write_csv
-from signorini.studies.stability import round_off
+from signorini.studies.stability.round_off import PIECES
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    parser.add_argument("piece", metavar="PIECE", help="FAMILY-ELEMENT, conditions, or stretching")
+    parser.add_argument("piece", choices=PIECES, metavar="PIECE", help=", ".join(PIECES))
     parser.add_argument(
         "--levels",
         type=float,
@@ -25,12 +25,7 @@ def add_arguments(parser):
 
 def run(arguments):
     """Measure and write."""
-    levels = [int(n) for n in arguments.levels]
-    if arguments.piece == "conditions":
-        rows = round_off.conditions(levels)
-    elif arguments.piece == "stretching":
-        rows = round_off.stretching([10.0**-k for k in arguments.levels])
-    else:
-        rows = round_off.errors(*arguments.piece.split("-"), levels)
+    levels = [int(n) if n.is_integer() else n for n in arguments.levels]
+    rows = PIECES[arguments.piece](levels)
     write_csv(arguments.output, rows)
     return Outcome(f"round-off: {arguments.piece}, {len(rows)} rows")

@@ -6,13 +6,15 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
+from signorini.generated.bodies import FAMILIES
 from signorini.storage import write_csv
 from signorini.studies.stability.success import measure
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    parser.add_argument("family", metavar="FAMILY", help="of bodies, for instance graded")
+    families = ", ".join(FAMILIES)
+    parser.add_argument("family", choices=FAMILIES, metavar="FAMILY", help=f"of bodies: {families}")
     parser.add_argument(
         "--seeds", type=int, nargs=2, required=True, metavar=("FIRST", "COUNT"), help="of problems"
     )

@@ -1,15 +1,18 @@
 """Table 5.1 computed in other ways that are equally right."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from signorini.errors.rates import slopes
 from signorini.errors.reference import ReferenceErrors
+from signorini.exceptions import SignoriniError
 from signorini.fem.problem import discretize, discretize_on
 from signorini.generated.numbering import renumber
 from signorini.solvers import METHODS, solve
 from signorini.solvers.attempts import GENERAL, attempt
+from signorini.wording import nearest
 
 
 def table(statement, scene, solved):
@@ -105,19 +108,43 @@ def variant(name, statement, scene, samples):
     -------
     list of dict
         As `table`, with ``variant`` (the name, or the route's) and ``sample``.
+
+    Raises
+    ------
+    SignoriniError
+        If there is no such variant.
     """
+    if name not in _WAYS:
+        raise SignoriniError(f"--variant: there is no {name!r}; {nearest(name, _WAYS)}")
     return [
         {"variant": label, "sample": sample} | row
-        for label, sample, solved in _ways(name, statement, samples)
+        for label, sample, solved in _WAYS[name](statement, samples)
         for row in table(statement, scene, solved)
     ]
 
 
-def _ways(name, statement, samples):
-    """(variant, sample, function from a problem to u)."""
-    if name in ("auto", "routes"):
-        methods = METHODS if name == "routes" else ("auto",)
-        return [(method, 0, by_route(method)) for method in methods]
-    rngs = [np.random.default_rng([20, sample]) for sample in range(samples)]
-    chances = [last_bit(rng) if name == "last-bit" else renumbered(statement, rng) for rng in rngs]
-    return [(name, sample, solved) for sample, solved in enumerate(chances)]
+def _by_routes(methods, statement, samples):
+    return [(method, 0, by_route(method)) for method in methods]
+
+
+def _last_bit(statement, samples):
+    return [("last-bit", sample, last_bit(_rng(sample))) for sample in range(samples)]
+
+
+def _renumbered(statement, samples):
+    numbered = [renumbered(statement, _rng(sample)) for sample in range(samples)]
+    return [("renumbered", sample, solved) for sample, solved in enumerate(numbered)]
+
+
+def _rng(sample):
+    return np.random.default_rng([20, sample])
+
+
+# Variant -> function that lists, for each solve of the table, a name, a sample, and a function from
+# a problem to u.
+_WAYS = {
+    "auto": partial(_by_routes, ("auto",)),
+    "routes": partial(_by_routes, METHODS),
+    "last-bit": _last_bit,
+    "renumbered": _renumbered,
+}

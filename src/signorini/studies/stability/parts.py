@@ -49,7 +49,8 @@ def read_parts(folder):
     pieces = {
         part: _read(Path(folder, part)) for part in ("success", "digits", "floor", "extremes")
     }
-    pieces["success"] = {name: pieces["success"][name] for name in FAMILIES}
+    success = pieces["success"]
+    pieces["success"] = {name: success[name] for name in FAMILIES if name in success}
     return pieces | {part: _joined(pieces[part].values()) for part in ("success", "digits")}
 
 

@@ -1,6 +1,7 @@
 """Where accuracy ends: errors on ever finer meshes, condition numbers, and stretched cells."""
 
 import time
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from signorini.generated.statements import LABELS, grid, square, statement
 from signorini.solvers import solve
 from signorini.solvers.attempts import attempt
 
+_FAMILIES = ("smooth", "patch")  # of exact solutions
 _DENSE = 1000  # unknowns up to which all eigenvalues are found at once
 
 
@@ -114,3 +116,16 @@ def _spectrum(problem):
         largest = float(eigsh(A, 1, which="LA", return_eigenvectors=False, tol=1e-4)[0])
         smallest = float(eigsh(A, 1, sigma=0.0, which="LM", return_eigenvectors=False, tol=1e-6)[0])
     return {"condition": largest / smallest, "largest": largest, "smallest": smallest}
+
+
+def _stretching(exponents):
+    return stretching([10.0**-exponent for exponent in exponents])
+
+
+PIECES = {
+    f"{family}-{element}": partial(errors, family, element)
+    for family in _FAMILIES
+    for element in ELEMENTS
+} | {"conditions": conditions, "stretching": _stretching}
+"""What is measured: name -> function from its levels to rows; of stretching, from the exponents of
+ten, negated, of the aspects."""

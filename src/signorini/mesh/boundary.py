@@ -1,6 +1,7 @@
 """The section ``boundary`` of a scene: what holds on the parts of the boundary."""
 
 LABELS = ("dirichlet", "contact", "neumann")
+PART = "part "  # before the name of a part, where it stands beside labels
 SIDES = ("bottom", "right", "top", "left")  # the parts of a rectangle's boundary
 
 
@@ -23,6 +24,17 @@ def by_formula(boundary):
     some_key_is_a_label = any(name in LABELS for name in boundary)
     every_value_is_a_label = all(value in LABELS for value in boundary.values())
     return some_key_is_a_label and not every_value_is_a_label
+
+
+def part_key(name):
+    """What stands for a named part of the boundary wherever a label can.
+
+    Examples
+    --------
+    >>> part_key("contact")  # a part of this name need not carry the label
+    'part contact'
+    """
+    return f"{PART}{name}"
 
 
 def labels_of(boundary):

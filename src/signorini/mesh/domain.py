@@ -21,7 +21,9 @@ def make_domain(domain, boundary, coarsest):
     Parameters
     ----------
     domain, boundary : dict
-        Validated, defaults filled in, a mesh file's path resolved.
+        Validated, defaults filled in, a mesh file's path resolved. Besides the kinds of a scene
+        there is ``"given"``: its ``mesh`` is a `NamedMesh` of level `coarsest`, its ``width`` the
+        mesh width there, and ``rest`` the label of the facets in no part that `boundary` names.
     coarsest : int
         The coarsest level: that of the root where there is one.
 
@@ -49,14 +51,27 @@ def make_domain(domain, boundary, coarsest):
     from signorini.mesh.labels import labelled
     from signorini.mesh.rules import boundary_rules
 
-    mesh = _root_mesh(domain, coarsest)
-    width = _longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
+    if domain["kind"] == "given":
+        root = labelled(domain["mesh"], boundary, domain["rest"], keep=boundary)
+        return Refined(root, coarsest, domain["width"])
+    mesh = root_mesh(domain, coarsest)
+    width = longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
     root = labelled(mesh, boundary_rules(boundary))
     return Refined(root, coarsest, width, boundary if by_formula(boundary) else None)
 
 
-def _root_mesh(domain, coarsest):
-    """The root of a domain that is no rectangle, not yet labelled."""
+def root_mesh(domain, coarsest):
+    """The root of a domain that is no rectangle, not yet labelled: a `NamedMesh`.
+
+    Parameters
+    ----------
+    domain, coarsest
+        See `make_domain`, also for what is raised.
+
+    Returns
+    -------
+    NamedMesh
+    """
     if domain["kind"] == "mesh":
         from signorini.mesh.imported import import_mesh
 
@@ -73,7 +88,17 @@ def _root_mesh(domain, coarsest):
     return mesh
 
 
-def _longest_edge(mesh):
+def longest_edge(mesh):
+    """The length of the longest edge of a mesh, unit of length.
+
+    Parameters
+    ----------
+    mesh : Grid, Triangulation or NamedMesh
+
+    Returns
+    -------
+    float
+    """
     a, b = mesh.facets
     return float(np.hypot(*(mesh.p[:, a] - mesh.p[:, b])).max())
 

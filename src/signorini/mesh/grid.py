@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.mesh import grid_nesting
-from signorini.mesh.boundary import SIDES
+from signorini.mesh.boundary import PART, SIDES
 from signorini.mesh.grid_edges import EdgeLayout
 from signorini.mesh.lattice import Lattice
 
@@ -203,7 +203,9 @@ class Grid(Lattice):
         }[side]
 
     def sides(self, label):
-        """The sides that carry `label`, a tuple of names."""
+        """The sides that carry `label`, a tuple of names; the side itself for its `part_key`."""
+        if label.startswith(PART):
+            return (label.removeprefix(PART),)
         return tuple(side for side, name in zip(SIDES, self.labels, strict=True) if name == label)
 
     def boundary_vertices(self, label):

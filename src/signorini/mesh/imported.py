@@ -90,7 +90,7 @@ def import_mesh(path, limit=MAX_BYTES):
         timeout=30 + 2e-6 * size,
         task=path.name,
     )
-    return _named_mesh(path, raw)
+    return named_mesh(path.name, raw)
 
 
 def resolve_mesh_path(path, root, base=None):
@@ -136,19 +136,36 @@ def resolve_mesh_path(path, root, base=None):
     return resolved
 
 
-def _named_mesh(path, raw):
-    """Check what `parse` found in a file."""
-    points = _plane(path, raw["points"])
-    p, t, vertex_map = check_triangulation(points, raw["triangle"].T, path.name)
+def named_mesh(source, raw):
+    """Check what `parse` found in a mesh.
+
+    Parameters
+    ----------
+    source : str
+        What messages call it.
+    raw : dict of ndarray
+        See `parse.parse`.
+
+    Returns
+    -------
+    NamedMesh
+
+    Raises
+    ------
+    MeshError
+        If it is not a triangulation.
+    """
+    points = _plane(source, raw["points"])
+    p, t, vertex_map = check_triangulation(points, raw["triangle"].T, source)
     lines = raw["line"].T
     if lines.size and (lines.min() < 0 or lines.max() >= vertex_map.size):
         raise MeshError(
-            f"{path.name}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}"
+            f"{source}: a line uses a vertex out of range; use 0 to {vertex_map.size - 1}"
         )
     names = json.loads(str(raw["names"]))
     parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
     regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
-    return NamedMesh(p, t, parts, regions, path.name, names["note"])
+    return NamedMesh(p, t, parts, regions, source, names["note"])
 
 
 def _regular_size(path):
@@ -170,18 +187,17 @@ def _cause(error, path):
     return f"{error.strerror}: {path}" if isinstance(error, OSError) else error
 
 
-def _plane(path, points):
+def _plane(source, points):
     """Coordinates x and y, shape (2, nv), of points in a plane z = const."""
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise MeshError(
-            f"{path.name}: points have shape {points.shape}; give two or three coordinates each"
+            f"{source}: points have shape {points.shape}; give two or three coordinates each"
         )
     p, z = points.T[:2], points.T[2:]
     elsewhere = (z != z[:, :1]).ravel()
     if elsewhere.any() and not np.ptp(z) <= _PLANE * np.ptp(p):
         k = int(np.argmax(elsewhere))
         raise MeshError(
-            f"{path.name}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; "
-            "the mesh must be plane"
+            f"{source}: vertex {k} has z = {z[0, k]:.6g}, not {z[0, 0]:.6g}; the mesh must be plane"
         )
     return p

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import LABELS, SIDES
+from signorini.mesh.boundary import LABELS, SIDES, part_key
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.geometry import cross, point_text
 from signorini.mesh.triangulation import Triangulation
@@ -55,10 +55,15 @@ class NamedMesh:
         """End vertices of each facet, shape (2, nf), numbered as scikit-fem does."""
         return self._facets[0]
 
+    @property
+    def facets_of_triangles(self):
+        """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
+        return self._facets[1]
+
     @cached_property
     def boundary(self):
         """Facets on the boundary, increasing."""
-        return np.flatnonzero(np.bincount(self._facets[1].ravel()) == 1)
+        return np.flatnonzero(np.bincount(self.facets_of_triangles.ravel()) == 1)
 
     @cached_property
     def midpoints(self):
@@ -98,7 +103,7 @@ def with_sides(mesh):
     return replace(mesh, parts=sides | mesh.parts)
 
 
-def label_boundary(mesh, rules):
+def label_boundary(mesh, rules, rest=None):
     """Give every boundary facet exactly one label.
 
     Parameters
@@ -108,6 +113,8 @@ def label_boundary(mesh, rules):
         A selector is the name of a part, or a function of (x, y) such as a `Formula`: it selects
         the boundary facets at whose midpoints it is positive. A label is ``"dirichlet"``,
         ``"contact"`` or ``"neumann"``.
+    rest : str, optional
+        The label of the facets that no rule selects; without it they are refused.
 
     Returns
     -------
@@ -135,11 +142,13 @@ def label_boundary(mesh, rules):
     carries = {}
     for _, label, selected in selections:
         carries[label] = carries.get(label, False) | selected
+    if rest is not None:
+        carries[rest] = carries.get(rest, False) | ~_taken(mesh, carries)
     _check_each_once(mesh, carries, selections)
     return {label: mesh.boundary[selected] for label, selected in carries.items()}
 
 
-def labelled(mesh, rules):
+def labelled(mesh, rules, rest=None, keep=()):
     """The `Triangulation` of a mesh whose boundary is labelled.
 
     Parameters
@@ -147,15 +156,22 @@ def labelled(mesh, rules):
     mesh : NamedMesh
     rules : dict, or iterable of pairs (selector, label)
         See `label_boundary`, also for what is raised.
+    rest : str, optional
+        See `label_boundary`.
+    keep : iterable of str, optional
+        Parts whose facets the triangulation and its refinements know by their `part_key`.
 
     Returns
     -------
     Triangulation
     """
-    return Triangulation(mesh.p, mesh.t, labelled_ends(mesh, rules), mesh.regions)
+    ends = labelled_ends(mesh, rules, rest)
+    for name in keep:
+        ends[part_key(name)] = mesh.facets[:, mesh.boundary[_selected(mesh, name)]]
+    return Triangulation(mesh.p, mesh.t, ends, mesh.regions)
 
 
-def labelled_ends(mesh, rules):
+def labelled_ends(mesh, rules, rest=None):
     """As `label_boundary`, but with the end vertices of the facets.
 
     Parameters
@@ -163,12 +179,15 @@ def labelled_ends(mesh, rules):
     mesh : NamedMesh
     rules : dict, or iterable of pairs (selector, label)
         See `label_boundary`, also for what is raised.
+    rest : str, optional
+        See `label_boundary`.
 
     Returns
     -------
     dict of str to ndarray of int, shape (2, k)
     """
-    return {label: mesh.facets[:, facets] for label, facets in label_boundary(mesh, rules).items()}
+    carries = label_boundary(mesh, rules, rest)
+    return {label: mesh.facets[:, facets] for label, facets in carries.items()}
 
 
 def _check_label(selector, label):
@@ -233,6 +252,11 @@ def _known_parts(mesh, name):
     if name in LABELS:
         return f"{known}; or give {name} a formula, and every other label one"
     return known
+
+
+def _taken(mesh, carries):
+    """Whether some label is carried by each boundary facet, shape (nb,)."""
+    return np.any([np.zeros(mesh.boundary.size, dtype=bool), *carries.values()], axis=0)
 
 
 def _check_each_once(mesh, carries, selections):

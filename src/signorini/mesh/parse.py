@@ -43,7 +43,7 @@ def parse(path):
         content = path.read_bytes()
         refuse_hostile(path, content)
         read = _read_gmsh4 if _is_gmsh4(path, content) else _read_by_meshio
-        return _arrays(*read(path, content))
+        return arrays_of(*read(path, content))
     except ModuleNotFoundError as error:
         raise MeshError(
             f"{path.name}: reading it needs the Python package {error.name}; install it"
@@ -74,8 +74,22 @@ def _remedy(error):
     return "export the mesh again, for instance as .msh 4.1"
 
 
-def _arrays(points, cells, groups, note):
-    """What `parse` returns."""
+def arrays_of(points, cells, groups, note):
+    """What `parse` returns.
+
+    Parameters
+    ----------
+    points : ndarray, shape (nv, 2 or 3)
+    cells : dict
+        ``"line"`` and ``"triangle"`` -> vertices of each cell, (k, 2 or 3).
+    groups : dict of str to Groups
+        Of both kinds of cell.
+    note : str
+
+    Returns
+    -------
+    dict of ndarray
+    """
     arrays, names = {"points": points} | cells, {"note": note}
     for kind, own in groups.items():
         members = own.resolved()
@@ -111,9 +125,31 @@ def _read_gmsh4(path, content):
 def _read_by_meshio(path, content):
     """Points, cells, groups and note of whatever meshio reads."""
     mesh = _meshio_mesh(path, content)
-    _refuse_other_cells(mesh)
     is_gmsh = path.suffix.lower() == ".msh"
-    titles = physical_names(content) if is_gmsh else titles_kept(mesh)
+    return read_meshio(mesh, physical_names(content) if is_gmsh else None)
+
+
+def read_meshio(mesh, titles=None):
+    """What a meshio mesh holds.
+
+    Parameters
+    ----------
+    mesh : meshio.Mesh
+    titles : list of (int, int, str), optional
+        Dimension, number and name of Gmsh's physical groups; by default those that the mesh has.
+
+    Returns
+    -------
+    points, cells, groups, note
+        See `arrays_of`.
+
+    Raises
+    ------
+    MeshError
+        If it holds other cells than points, lines and triangles.
+    """
+    _refuse_other_cells(mesh)
+    titles = titles_kept(mesh) if titles is None else titles
     cells, groups = {}, {}
     for kind, width in _WIDTHS.items():
         blocks = [k for k, block in enumerate(mesh.cells) if block.type == kind]

@@ -12,7 +12,7 @@ import numpy as np
 from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
 from signorini.mesh import refinement
-from signorini.mesh.boundary import LABELS
+from signorini.mesh.boundary import LABELS, PART
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.geometry import cross, triangle_areas
 from signorini.mesh.grid import Triangles
@@ -31,7 +31,7 @@ class Triangulation:
         come in.
     ends : dict of str to ndarray of int, shape (2, k)
         End vertices of the facets that carry each of the labels ``"dirichlet"``, ``"contact"``,
-        ``"neumann"``.
+        ``"neumann"``; and, under their `part_key`, of those in named parts of the boundary.
     subdomains : dict of str to ndarray of int, optional
         Triangles in each named part of the domain, inherited by refinement.
     parent : Triangulation, optional
@@ -214,7 +214,9 @@ class Triangulation:
         """The same triangulation as a scikit-fem mesh, its boundaries named."""
         from skfem import MeshTri
 
-        names = {label: self.boundary_facets(label) for label in self.ends}
+        parts = [label for label in self.ends if label.startswith(PART)]
+        names = {label.removeprefix(PART): self.boundary_facets(label) for label in parts}
+        names |= {label: self.boundary_facets(label) for label in self.ends if label in LABELS}
         return MeshTri(self.p, self.t, sort_t=False).with_boundaries(names)
 
     def same_as(self, other):

@@ -57,26 +57,6 @@ class Bisected(Triangulation):
         """Whether all triangles hang together by facets."""
         return self.origin.in_one_part
 
-    def over_ancestors(self, values):
-        """Least, mean and greatest value on each triangle of `coarser()`.
-
-        Parameters
-        ----------
-        values : ndarray, shape (nt,)
-
-        Returns
-        -------
-        least, mean, greatest : ndarray, shape (coarser().number_of_triangles,)
-            The mean by area; unit of the values.
-        """
-        count = self.origin.number_of_triangles
-        least, greatest = np.full(count, np.inf), np.full(count, -np.inf)
-        np.minimum.at(least, self.ancestor, values)
-        np.maximum.at(greatest, self.ancestor, values)
-        integrals = np.bincount(self.ancestor, values * self.area, minlength=count)
-        areas = np.bincount(self.ancestor, self.area, minlength=count)
-        return least, np.clip(integrals / areas, least, greatest), greatest
-
     def children(self, values):
         """Refused: a triangle of `coarser()` has no fixed number of children."""
         raise MeshError(
@@ -159,6 +139,32 @@ def bisect(mesh, marked):
         pairs=np.hstack([np.stack([own, own]), cut_facets]),
         ancestor=ancestor,
     )
+
+
+def over_ancestors(mesh, values):
+    """Least, mean and greatest value on each triangle of a mesh's coarser one.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+        With a coarser mesh, of whatever refinement.
+    values : ndarray, shape (nt,)
+
+    Returns
+    -------
+    least, mean, greatest : ndarray, shape (nt of mesh.coarser(),)
+        The mean by area; unit of the values.
+    """
+    if not isinstance(mesh, Bisected):
+        family = mesh.children(values[None])[:, 0]
+        return family.min(axis=0), family.mean(axis=0), family.max(axis=0)
+    count = mesh.origin.number_of_triangles
+    least, greatest = np.full(count, np.inf), np.full(count, -np.inf)
+    np.minimum.at(least, mesh.ancestor, values)
+    np.maximum.at(greatest, mesh.ancestor, values)
+    integrals = np.bincount(mesh.ancestor, values * mesh.area, minlength=count)
+    areas = np.bincount(mesh.ancestor, mesh.area, minlength=count)
+    return least, np.clip(integrals / areas, least, greatest), greatest
 
 
 def _longest_first(p, t):

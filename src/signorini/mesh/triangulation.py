@@ -269,21 +269,6 @@ class Triangulation:
         """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
         return refinement.children(values)
 
-    def over_ancestors(self, values):
-        """Least, mean and greatest value on each triangle of `coarser()`.
-
-        Parameters
-        ----------
-        values : ndarray, shape (nt,)
-
-        Returns
-        -------
-        least, mean, greatest : ndarray, shape (coarser().number_of_triangles,)
-            Unit of the values.
-        """
-        family = self.children(values[None])[:, 0]
-        return family.min(axis=0), family.mean(axis=0), family.max(axis=0)
-
     def vertex_children(self, values):
         """Values at the vertices of the children; see `Grid.vertex_children`."""
         return refinement.children(values)

@@ -17,6 +17,7 @@ from signorini.exceptions import MeshError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.residual import residual, row_sums
 from signorini.fem.stiffness import assemble_stiffness
+from signorini.mesh.bisection import over_ancestors
 from signorini.solvers.solution import largest
 
 _SMALL = 100  # unknowns of a level that is solved with a dense inverse
@@ -29,6 +30,10 @@ _EXACT = 1e6  # range of the diagonal beyond which products are taken by differe
 # Of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow.
 _JUMP = 30.0
 HALF = 0.5 - 1e-9
+# Of local refinements: the share of a mesh's vertices that the next level has at most, where not
+# more meshes than these are passed over for it; measured.
+_SHARE = 0.5
+_PASSED_OVER = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,19 +98,59 @@ def build_hierarchy(problem):
     if ends is not None and A.shape[0] > _SMALL:
         levels.append(Level(A, _means(ends, mesh.number_of_vertices)))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
-    while A.shape[0] > _SMALL and (coarser := mesh.coarser()) is not None:
-        parents = mesh.vertex_parents()
-        _check_nested(mesh, coarser, parents)
-        if k is not None:
-            family = mesh.children(k[None])[:, 0]
-            robust = robust or bool(np.any(family.max(axis=0) > _JUMP * family.min(axis=0)))
-            k = family.mean(axis=0)
-        levels.append(Level(A, _means(parents, coarser.number_of_vertices)))
-        mesh, A = coarser, assemble_stiffness(coarser, ELEMENTS["P1"], k)
+    while A.shape[0] > _SMALL and mesh.coarser() is not None:
+        P, mesh, k, follows = _coarsened(mesh, k)
+        robust = robust or not follows
+        levels.append(Level(A, P))
+        A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
     below = _algebraic(A)
     robust = robust or (jumps(k) and (ends is not None or problem.mesh.coarser() is None))
     levels += below
     return [replace(level, robust=True) for level in levels] if robust else levels
+
+
+def _coarsened(mesh, k):
+    """The next coarser mesh that is worth a level.
+
+    Local refinements that added few vertices are passed over, so that all levels together cost
+    little more than the finest; but only a few of them, so that no cell is much larger than those
+    that it was cut into.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    k : ndarray, shape (nt,), or None
+        Coefficient of each triangle.
+
+    Returns
+    -------
+    P : scipy.sparse.csr_array
+        Prolongation from it.
+    coarse : Grid or Triangulation
+    k : ndarray or None
+        Its coefficient.
+    follows : bool
+        Whether its coefficient follows that of `mesh`, without jumps within a triangle.
+    """
+    P, coarse, follows = None, mesh, True
+    for _ in range(_PASSED_OVER + 1):
+        step, coarse, k, smooth = _one_coarser(coarse, k)
+        P, follows = step if P is None else (P @ step).tocsr(), follows and smooth
+        few = coarse.number_of_vertices <= _SHARE * mesh.number_of_vertices
+        if few or coarse.coarser() is None:
+            break
+    return P, coarse, k, follows
+
+
+def _one_coarser(mesh, k):
+    """As `_coarsened`, of the mesh that `mesh` was refined from."""
+    coarse, parents = mesh.coarser(), mesh.vertex_parents()
+    _check_nested(mesh, coarse, parents)
+    P = _means(parents, coarse.number_of_vertices)
+    if k is None:
+        return P, coarse, None, True
+    least, mean, greatest = over_ancestors(mesh, k)
+    return P, coarse, mean, not np.any(greatest > _JUMP * least)
 
 
 def jumps(coefficient):

@@ -93,7 +93,7 @@ def check_memory(jobs):
             name, n = job.wildcards.scene, int(job.params.get("n") or job.wildcards.n)
             element = job.params.get("element") or job.wildcards.element
             try:
-                check_level(scene(name).problem, element, n, job.params.method)
+                check_level(scene(name).problem_statement, element, n, job.params.method)
             except SignoriniError as error:
                 sys.exit(f"error: config/scenes/{name}.yaml: {error}")
 

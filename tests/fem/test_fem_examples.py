@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[2]
     "module",
     [
         "signorini.fem.elements",
+        "signorini.fem.function",
         "signorini.fem.problem",
         "signorini.fem.quadrature",
         "signorini.fem.residual",

@@ -43,9 +43,10 @@ class BySubdomain:
 
 @dataclass(frozen=True)
 class Data:
-    """The data of a problem, each a `Formula`.
+    """The data of a problem, each a `Formula`, or a `Function` of a program.
 
-    Data derived from an exact solution are callables of the same interface; such a g also takes
+    Those on the boundary may be given part by part, see `by_part.ByPart`. Data derived from an
+    exact solution are callables of the same interface; such a g also takes
     the normal.
 
     Parameters

@@ -3,6 +3,9 @@
 import numpy as np
 
 from signorini.exceptions import SceneError
+from signorini.fem.by_part import values_at
+from signorini.fem.elements import find_element
+from signorini.fem.function import Function
 from signorini.formula import Formula
 
 _ROUNDING = 1e-10  # relative, within which obstacle and Dirichlet data meet at a corner
@@ -17,7 +20,7 @@ def check_poles(mesh, f):
     Parameters
     ----------
     mesh : Grid or Triangulation
-    f : Formula
+    f : Formula or Function
         Anything else is not looked at either.
 
     Raises
@@ -25,7 +28,11 @@ def check_poles(mesh, f):
     FormulaError
         By the formula itself.
     """
-    if isinstance(f, Formula) and f.constant is None and mesh.number_of_triangles <= _COARSE:
+    if (
+        isinstance(f, Formula | Function)
+        and f.constant is None
+        and mesh.number_of_triangles <= _COARSE
+    ):
         f(*mesh.p)
         a, b = mesh.p[:, mesh.facets].transpose(1, 0, 2)
         f(*(0.5 * (a + b)))
@@ -50,8 +57,10 @@ def check_corners(mesh, data, size):
     """
     shared = np.intersect1d(mesh.boundary_vertices("contact"), mesh.boundary_vertices("dirichlet"))
     x, y = mesh.points(shared)
+    vertex_element = find_element("P1")
     obstacle, dirichlet = (
-        formula(x, y, check=False) for formula in (data.obstacle, data.dirichlet)
+        values_at(mesh, vertex_element, datum, shared, check=False)
+        for datum in (data.obstacle, data.dirichlet)
     )
     above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
     if above.any():

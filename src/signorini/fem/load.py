@@ -3,8 +3,11 @@
 import numpy as np
 
 from signorini.chunks import chunk_slices
+from signorini.exceptions import SceneError
+from signorini.fem.by_part import ByPart
 from signorini.fem.grid_lines import points_on_lines, weighted
 from signorini.fem.quadrature import interval_rule, triangle_rule
+from signorini.mesh.boundary import part_key
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import triangle_areas
 
@@ -19,8 +22,8 @@ def assemble_load(mesh, element, f, g, rule):
     ----------
     mesh : Grid or Triangulation
     element : Element
-    f, g : Formula
-        Volume force, and flux on the Neumann part.
+    f, g : Formula or Function
+        Volume force, and flux on the Neumann part, which may be a `ByPart`.
     rule : str or int
         Quadrature rule on triangles, see `quadrature.triangle_rule`; or ``"nodal"``: f is replaced
         by its interpolant in the element's own nodes (for CR this is the rule ``"midpoints"``).
@@ -38,9 +41,29 @@ def assemble_load(mesh, element, f, g, rule):
         b = _on_grid(mesh, element, f, points, shape)
     else:
         b = _on_triangles(mesh, element, f, points, shape)
-    if g.constant != 0.0:
-        _add_flux(b, mesh, element, g)
+    fluxes = {"neumann": g}
+    if isinstance(g, ByPart):
+        _check_apart(mesh, g)
+        fluxes = {part_key(name): own for name, own in g.parts.items()}
+    for label, flux in fluxes.items():
+        if flux.constant != 0.0:
+            _add_flux(b, mesh, element, flux, label)
     return b
+
+
+def _check_apart(mesh, g):
+    """Refuse parts that share a facet: which of two fluxes acts there?"""
+    seen = np.zeros(mesh.number_of_facets, dtype=bool)
+    for name in g.parts:
+        facets = mesh.boundary_facets(part_key(name))
+        shared = facets[seen[facets]]
+        if shared.size:
+            x, y = mesh.points(mesh.facet_ends(shared[:1])[:, 0]).mean(axis=1)
+            raise SceneError(
+                f"{g.field}.{name}: shares the facet at ({x:.6g}, {y:.6g}) with another part "
+                f"of {g.field}; name disjoint parts"
+            )
+        seen[facets] = True
 
 
 def _weighted_shape(element, rule, number_of_triangles):
@@ -89,15 +112,15 @@ def _on_triangles(mesh, element, f, points, shape):
     return np.bincount(dofs, local.ravel(), minlength=element.size(mesh))
 
 
-def _add_flux(b, mesh, element, g):
-    """Add int g phi over the Neumann facets.
+def _add_flux(b, mesh, element, g, label):
+    """Add int g phi over the facets with a label.
 
     All three functions of the triangle behind a facet take part: none of CR vanishes on it.
     """
-    facets = mesh.boundary_facets("neumann")
+    facets = mesh.boundary_facets(label)
     if not facets.size:
         return
-    triangles = mesh.triangles_at("neumann")
+    triangles = mesh.triangles_at(label)
     dofs = element.triangle_dofs(triangles)
     s, weights = interval_rule(_EDGE_DEGREE)
     for facet, ends in enumerate(((0, 1), (1, 2), (0, 2))):

@@ -8,13 +8,16 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.exceptions import SceneError
+from signorini.exceptions import MeshError, SceneError
+from signorini.fem.by_part import check_parts_meet, values_at
 from signorini.fem.coefficient import coefficient_on
+from signorini.fem.data import Data
 from signorini.fem.data_checks import check_corners, check_poles
 from signorini.fem.elements import find_element
 from signorini.fem.load import assemble_load
 from signorini.fem.stencil import apply_stiffness, contact_fluxes
 from signorini.mesh.grid import Grid
+from signorini.mesh.triangulation import Triangulation
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,16 +40,38 @@ class Problem:
         Their values, unit of u.
     coefficient : ndarray, shape (nt,), optional
         Diffusion coefficient of each triangle; None where it is 1 throughout.
+    data : Data, optional
+        What it was discretised from.
+    n : int, optional
+        Its level.
+    h : float, optional
+        Mesh width of the level, unit of length.
+
+    Raises
+    ------
+    SceneError, MeshError
+        If element or mesh is of no such kind.
     """
 
     element: str
-    mesh: object
+    mesh: Grid | Triangulation
     b: np.ndarray
     contact: np.ndarray
     lower: np.ndarray
     fixed: np.ndarray
     fixed_values: np.ndarray
     coefficient: np.ndarray | None = None
+    data: Data | None = None
+    n: int | None = None
+    h: float | None = None
+
+    def __post_init__(self):
+        find_element(self.element)
+        if not isinstance(self.mesh, Grid | Triangulation):
+            raise MeshError(
+                f"mesh: a {type(self.mesh).__name__} has no labelled boundary; "
+                "let signorini.problem(mesh, ...) make the problem, it takes most meshes"
+            )
 
     @property
     def finite_element(self):
@@ -228,7 +253,9 @@ def discretize(scene, element, n):
             f"levels: n = {n!r} is not a positive whole number; n is 1/h, for instance 8"
         )
     statement.check()
-    return discretize_on(statement.triangulations.level(int(n)), element, statement)
+    domain, n = statement.triangulations, int(n)
+    problem = discretize_on(domain.level(n), element, statement)
+    return replace(problem, n=n, h=domain.mesh_size(n))
 
 
 def discretize_on(mesh, element, statement):
@@ -252,8 +279,10 @@ def discretize_on(mesh, element, statement):
     fixed = finite_element.boundary_dofs(mesh, "dirichlet")
     contact = finite_element.boundary_dofs(mesh, "contact")
     contact = np.setdiff1d(contact, fixed, assume_unique=True)
-    lower = data.obstacle(*finite_element.nodes(mesh, contact))
-    fixed_values = data.dirichlet(*finite_element.nodes(mesh, fixed))
+    for datum in (data.dirichlet, data.obstacle):
+        check_parts_meet(mesh, datum)
+    lower = values_at(mesh, finite_element, data.obstacle, contact)
+    fixed_values = values_at(mesh, finite_element, data.dirichlet, fixed)
     check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))
     return Problem(
         element=finite_element.name,
@@ -264,6 +293,7 @@ def discretize_on(mesh, element, statement):
         fixed=fixed,
         fixed_values=fixed_values,
         coefficient=coefficient_on(mesh, data.coefficient),
+        data=data,
     )
 
 

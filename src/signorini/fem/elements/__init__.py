@@ -37,7 +37,7 @@ def find_element(element):
     """
     if isinstance(element, Element):
         return element
-    if element not in ELEMENTS:
+    if not isinstance(element, str) or element not in ELEMENTS:
         near = difflib.get_close_matches(str(element).upper(), ELEMENTS, n=1, cutoff=0.3)
         hint = f"; did you mean {near[0]}?" if near else ""
         known = ", ".join(ELEMENTS)

@@ -1,0 +1,94 @@
+"""A datum that is given part by part of the boundary."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.exceptions import SceneError
+from signorini.mesh.boundary import part_key
+
+_ROUNDING = 1e-10  # relative, within which the values of two parts meet
+
+
+@dataclass(frozen=True, eq=False)
+class ByPart:
+    """Name of a part of the boundary -> its datum.
+
+    Parameters
+    ----------
+    parts : dict of str to Formula or Function
+        The mesh knows each by its `part_key`.
+    field : str
+        Name of the quantity, for error messages.
+    """
+
+    parts: dict
+    field: str
+
+    constant = None
+
+
+def values_at(mesh, element, datum, dofs, check=True):
+    """Values of a datum at degrees of freedom on the boundary.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : Element
+    datum : Formula, Function or ByPart
+    dofs : ndarray of int, shape (k,)
+        Of a `ByPart` each on one of its parts; on two, the latter holds.
+    check : bool
+        Whether a value that is not finite is an error.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+
+    Raises
+    ------
+    FormulaError
+        Where a value is not finite.
+    """
+    if not isinstance(datum, ByPart):
+        return datum(*element.nodes(mesh, dofs), check=check)
+    values = np.zeros(dofs.size)
+    for name, own in datum.parts.items():
+        on_part = np.isin(dofs, element.boundary_dofs(mesh, part_key(name)))
+        values[on_part] = own(*element.nodes(mesh, dofs[on_part]), check=check)
+    return values
+
+
+def check_parts_meet(mesh, datum):
+    """Refuse a datum whose values jump where two of its parts meet.
+
+    No continuous function has them.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    datum : ByPart
+        Anything else is not looked at.
+
+    Raises
+    ------
+    SceneError
+        Naming the point and both values.
+    """
+    if not isinstance(datum, ByPart):
+        return
+    seen, values = np.zeros((2, mesh.number_of_vertices))
+    for name, own in datum.parts.items():
+        vertices = mesh.boundary_vertices(part_key(name))
+        found = own(*mesh.points(vertices), check=False)
+        before = values[vertices]
+        size = np.maximum(np.abs(found), np.abs(before))
+        jumps = (seen[vertices] > 0) & (np.abs(found - before) > _ROUNDING * size)
+        if jumps.any():
+            k = int(np.argmax(jumps))
+            x, y = mesh.points(vertices[k : k + 1])[:, 0]
+            raise SceneError(
+                f"{datum.field}.{name}: {found[k]:.6g} at ({x:.6g}, {y:.6g}), where another part "
+                f"of {datum.field} has {before[k]:.6g}; let the values of both meet there"
+            )
+        seen[vertices], values[vertices] = 1.0, found

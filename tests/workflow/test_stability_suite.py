@@ -3,14 +3,17 @@ kept.
 """
 
 import csv
+import json
 import re
 from datetime import date
 
 import pytest
 from project import FILES, LATEX, Project, rooms_of, undeclared
 
+from signorini.commands.program import main
 from signorini.generated.bodies import FAMILIES
 from signorini.report.typeset import typeset
+from signorini.storage import write_json
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
 
@@ -77,6 +80,19 @@ def test_the_page_shows_every_table_and_picture(suite):
     assert all(f"](stability_{name}.png)" in page for name in FIGURES)
     assert all(f"| {family} |" in page for family in FAMILIES)
     assert "| NO |" not in page
+
+
+def test_the_page_tells_the_machine_that_measured(built, suite, tmp_path):
+    """Not the one on which it is written."""
+    told = json.loads((suite / "machine.json").read_text(encoding="utf-8"))
+    assert f"{told['processor']}, {told['cores']} cores" in (suite / "stability.md").read_text()
+    other = built.copy(tmp_path / "project")
+    folder = other / "results/quick/stability"
+    write_json(folder / "machine.json", told | {"processor": "PDP-11", "cores": 3, "versions": {}})
+    assert main(["stability", "report", str(folder)]) == 0
+    page = (folder / "stability.md").read_text(encoding="utf-8")
+    assert "PDP-11, 3 cores" in page
+    assert "Not installed: " in page
 
 
 def test_the_page_begins_with_its_answer(suite):

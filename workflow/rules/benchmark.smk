@@ -2,17 +2,15 @@
 # of what. A measuring job takes all cores, so that nothing runs beside it.
 
 
+# Written once: no edit makes it again while the measurements stay. As an ancient input that another job of the run makes,
+# it would also hide from Snakemake that what it precedes has changed.
 rule benchmark_machine:
-    input:
-        library("benchmark machine"),
     output:
         f"{BENCHMARK}/machine.json",
     log:
         f"{BENCHMARK}/logs/machine.log",
     priority: 100  # before this run is the load
     threads: all_cores
-    params:
-        content=content("benchmark machine"),
     shell:
         "python3 -m signorini benchmark machine -o {output:q} 2>&1 | tee {log:q}"
 

@@ -1,9 +1,23 @@
 # The stability suite, `snakemake --cores 2 stability`; a finished piece is a file, so that it can be interrupted.
 
 
+# The machine that measures, described again whenever the solves are to be measured again.
+use rule benchmark_machine as stability_machine with:
+    input:
+        library("stability success"),
+    output:
+        f"{STABILITY}/machine.json",
+    log:
+        f"{STABILITY}/logs/machine.log",
+    params:
+        content=content("stability success"),
+        settings=lambda wildcards: as_json(suite()["success"]),
+
+
 rule stability_success:
     input:
         library("stability success", family=lambda: suite()["families"]),
+        machine=f"{STABILITY}/machine.json",
     output:
         f"{STABILITY}/success/{{family}}.csv",
     log:
@@ -83,6 +97,7 @@ rule stability_extremes:
 rule stability_report:
     input:
         library("stability report"),
+        machine=f"{STABILITY}/machine.json",
         success=success_files,
         digits=lambda wildcards: stability_pieces("digits", suite()["digits"]),
         floor=round_off_files,

@@ -7,7 +7,7 @@ example:
 from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
-from signorini.storage import write_csv, write_text
+from signorini.storage import read_json, write_csv, write_text
 from signorini.studies.stability.parts import read_parts
 from signorini.studies.stability.report import page, summarise
 
@@ -24,8 +24,9 @@ def run(arguments):
     folder, limit = arguments.folder, arguments.time_limit
     parts = read_parts(folder)
     found = summarise(parts, limit)
+    machine = read_json(folder / "machine.json")
     for layout, ending in (("latex", "tex"), ("markdown", "md")):
-        text = page(parts, found, layout, limit, arguments.seeds)
+        text = page(parts, found, layout, machine, limit, arguments.seeds)
         write_text(folder / f"stability.{ending}", text)
     for name, rows in found.items():
         write_csv(folder / f"{name}.csv", rows)

@@ -9,14 +9,12 @@ from signorini.fem.element_facts import ABBREVIATIONS
 from signorini.report.curves import EPS
 from signorini.report.document import Table, render
 from signorini.rivals import RIVALS
-from signorini.studies import machine
 from signorini.studies.stability import summaries
 from signorini.studies.stability.claims import claims
 from signorini.studies.stability.parts import errors_of, title
 from signorini.studies.stability.success import SLOW
 from signorini.studies.stability.verdicts import LIMITS
 
-_PACKAGES = (*machine.OURS, "clarabel", "highspy", "ngsolve", "osqp", "piqp", "proxsuite", "pyamg")
 _PAGE = "studies/stability/page.md.j2"
 
 
@@ -48,7 +46,7 @@ def summarise(parts, time_limit):
     return {"claims": met} | found
 
 
-def page(parts, found, layout, time_limit, seeds=0):
+def page(parts, found, layout, machine, time_limit, seeds=0):
     """The page, or the fragment for the paper's appendix; its sentences are in ``page.md.j2``.
 
     Parameters
@@ -56,6 +54,8 @@ def page(parts, found, layout, time_limit, seeds=0):
     parts, found : dict
         Of `parts.read_parts` and `summarise`.
     layout : {"markdown", "latex"}
+    machine : dict
+        Of `machine.describe`, on which the problems were solved.
     time_limit : float
         Of a rival on a problem, in seconds.
     seeds : int, optional
@@ -76,10 +76,10 @@ def page(parts, found, layout, time_limit, seeds=0):
         limits=LIMITS,
         time_limit=time_limit,
         seeds=seeds,
-        machine=machine.describe(_PACKAGES),
+        machine=machine,
         **_measured(parts),
         slow=SLOW,
-        absent=[rival for rival in RIVALS.values() if not rival.available()],
+        absent=[rival for rival in RIVALS.values() if rival.package not in machine["versions"]],
         variants=[key[7:] for key in found["digits"][0] if key.startswith("digits_")],
         most_digits=-np.log10(EPS),
     )

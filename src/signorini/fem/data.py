@@ -59,6 +59,10 @@ class Data:
         Values on the Dirichlet part, and the least ones on the contact part; unit of u.
     coefficient : Formula or BySubdomain
         Diffusion coefficient k.
+    contact_flux : Formula
+        The threshold s of k du/dnu on the contact part, unit of k u per length.
+    constraint : {"lower", "upper"}
+        u >= obstacle and k du/dnu >= s on the contact part, or <= both times; one of the two binds.
     """
 
     f: Formula
@@ -68,6 +72,8 @@ class Data:
     coefficient: Formula | BySubdomain = field(
         default_factory=lambda: Formula("1", "data.coefficient")
     )
+    contact_flux: Formula = field(default_factory=lambda: Formula("0", "data.contact_flux"))
+    constraint: str = "lower"
 
 
 def read_coefficient(value):

@@ -39,9 +39,10 @@ def check_poles(mesh, f):
 
 
 def check_corners(mesh, data, size):
-    """Refuse an obstacle above the Dirichlet data at a shared corner.
+    """Refuse an obstacle beyond the Dirichlet data at a shared corner.
 
-    The trace would jump there, and no function would be admissible: K is empty.
+    The trace would jump there, and no function would be admissible: K is empty. Beyond is above, or
+    below where u is bounded from above.
 
     Parameters
     ----------
@@ -62,11 +63,20 @@ def check_corners(mesh, data, size):
         values_at(mesh, vertex_element, datum, shared, check=False)
         for datum in (data.obstacle, data.dirichlet)
     )
-    above = obstacle - dirichlet > _ROUNDING * np.maximum(size, np.abs(dirichlet))
-    if above.any():
-        k = int(np.flatnonzero(above)[0])
+    sign, side, remedy = _BEYOND[data.constraint]
+    excess = sign * (obstacle - dirichlet)
+    beyond = excess > _ROUNDING * np.maximum(size, np.abs(dirichlet))
+    if beyond.any():
+        k = int(np.flatnonzero(beyond)[0])
         raise SceneError(
             f"data: incompatible data at ({x[k]:.6g}, {y[k]:.6g}), where contact and dirichlet "
-            f"parts meet: obstacle {obstacle[k]:.6g} lies above dirichlet {dirichlet[k]:.6g}; "
-            "lower the obstacle or raise dirichlet there"
+            f"parts meet: obstacle {obstacle[k]:.6g} lies {side} dirichlet {dirichlet[k]:.6g}; "
+            f"{remedy} there"
         )
+
+
+# Constraint -> sign of the obstacle's excess, where it lies then, and the remedy.
+_BEYOND = {
+    "lower": (1.0, "above", "lower the obstacle or raise dirichlet"),
+    "upper": (-1.0, "below", "raise the obstacle or lower dirichlet"),
+}

@@ -1,4 +1,7 @@
-"""The load chi(v) = int_Omega f v + int_{Gamma_N} g v of equation (2.1), by a chosen rule."""
+"""The load chi(v) = int_Omega f v + int_{Gamma_N} g v of equation (2.1), by a chosen rule.
+
+A threshold s of the flux on the contact part is a load there, too: int_{Gamma_C} s v.
+"""
 
 import numpy as np
 
@@ -48,6 +51,28 @@ def assemble_load(mesh, element, f, g, rule):
     for label, flux in fluxes.items():
         if flux.constant != 0.0:
             _add_flux(b, mesh, element, flux, label)
+    return b
+
+
+def assemble_contact_load(mesh, element, contact_flux):
+    """Load of a threshold s on the contact part, by the rule of g.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    element : Element
+    contact_flux : Formula
+        The threshold, unit of k u per length.
+
+    Returns
+    -------
+    ndarray, shape (ndof,), or None
+        int_{Gamma_C} s phi, unit of k u; None where s is the constant 0.
+    """
+    if contact_flux.constant == 0.0:
+        return None
+    b = np.zeros(element.size(mesh))
+    _add_flux(b, mesh, element, contact_flux, "contact")
     return b
 
 

@@ -1,6 +1,7 @@
 """From a scene to a bound-constrained quadratic problem.
 
 Minimise u'Au/2 - b'u such that u >= lower on the contact dofs and u is given on the fixed ones.
+Where the constraint is from above, u <= lower; -u then solves the mirrored problem.
 """
 
 from dataclasses import dataclass, replace
@@ -14,7 +15,7 @@ from signorini.fem.coefficient import coefficient_on
 from signorini.fem.data import Data
 from signorini.fem.data_checks import check_corners, check_poles
 from signorini.fem.elements import find_element
-from signorini.fem.load import assemble_load
+from signorini.fem.load import assemble_contact_load, assemble_load
 from signorini.fem.stencil import apply_stiffness, contact_fluxes
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
@@ -29,11 +30,11 @@ class Problem:
     element : {"P1", "CR"}
     mesh : Grid or Triangulation
     b : ndarray, shape (ndof,)
-        Load.
+        Load, that of a threshold on the contact part included.
     contact : ndarray of int, shape (nc,)
         Degrees of freedom under the constraint, increasing.
     lower : ndarray, shape (nc,)
-        The obstacle at them, unit of u.
+        The obstacle at them, unit of u: a bound from below, or from above where `upper`.
     fixed : ndarray of int, shape (nd,)
         Degrees of freedom on the Dirichlet part, increasing.
     fixed_values : ndarray, shape (nd,)
@@ -46,6 +47,10 @@ class Problem:
         Its level.
     h : float, optional
         Mesh width of the level, unit of length.
+    contact_load : ndarray, shape (ndof,), optional
+        What a threshold s of k du/dnu on the contact part gives to `b`; None where it is 0.
+    upper : bool
+        Whether the constraint is u <= `lower`.
 
     Raises
     ------
@@ -64,6 +69,8 @@ class Problem:
     data: Data | None = None
     n: int | None = None
     h: float | None = None
+    contact_load: np.ndarray | None = None
+    upper: bool = False
 
     def __post_init__(self):
         find_element(self.element)
@@ -156,7 +163,7 @@ class Problem:
         Parameters
         ----------
         **data
-            Any of ``b``, ``lower`` and ``fixed_values``, none of which A depends on.
+            Any of the fields on which A does not depend, such as ``b`` and ``lower``.
 
         Returns
         -------
@@ -166,6 +173,14 @@ class Problem:
         if "A" in vars(self):
             vars(changed)["A"] = self.A  # where `cached_property` looks it up
         return changed
+
+    @property
+    def threshold(self):
+        """The threshold's force on each contact dof, (nc,), unit of k u; None where it is 0.
+
+        The contact force, an integral of k du/dnu, is this and the multiplier.
+        """
+        return None if self.contact_load is None else self.contact_load[self.contact]
 
     def scaled(self, exponent):
         """The problem whose data, and so whose solution, are 2**exponent times these.
@@ -195,6 +210,7 @@ class Problem:
             b=np.ldexp(self.b, exponent),
             lower=np.ldexp(self.lower, exponent),
             fixed_values=np.ldexp(self.fixed_values, exponent),
+            contact_load=_scaled(self.contact_load, exponent),
         )
 
     def shifted(self, constant):
@@ -284,17 +300,27 @@ def discretize_on(mesh, element, statement):
     lower = values_at(mesh, finite_element, data.obstacle, contact)
     fixed_values = values_at(mesh, finite_element, data.dirichlet, fixed)
     check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))
+    b = assemble_load(mesh, finite_element, data.f, data.g, statement.load_quadrature)
+    contact_load = assemble_contact_load(mesh, finite_element, data.contact_flux)
+    if contact_load is not None:
+        b += contact_load
     return Problem(
         element=finite_element.name,
         mesh=mesh,
-        b=assemble_load(mesh, finite_element, data.f, data.g, statement.load_quadrature),
+        b=b,
         contact=contact,
         lower=lower,
         fixed=fixed,
         fixed_values=fixed_values,
         coefficient=coefficient_on(mesh, data.coefficient),
         data=data,
+        contact_load=contact_load,
+        upper=data.constraint == "upper",
     )
+
+
+def _scaled(values, exponent):
+    return None if values is None else np.ldexp(values, exponent)
 
 
 def _largest(values):

@@ -30,10 +30,10 @@ def contact_errors(mesh, element, solution, exact):
     dict
         ``trace_l2``: L2 norm of u - u_h, for CR of the trace from inside; unit of u times
         sqrt(length).
-        ``multiplier_l2``: L2 norm of du/dnu - lambda_h; unit of u per sqrt(length). lambda_h is
-        constant on cells: for CR on each facet, for P1 on the nearer halves of those that meet at a
-        vertex; see `contact_flux`. The cells of Dirichlet vertices, which have no multiplier, are
-        left out.
+        ``multiplier_l2``: L2 norm of k du/dnu less the discrete contact force, threshold included;
+        unit of k u per sqrt(length). The discrete one is constant on cells: for CR on each facet,
+        for P1 on the nearer halves of those that meet at a vertex; see `contact_flux`. The cells of
+        Dirichlet vertices, which have no multiplier, are left out.
         ``critical_points``: Hausdorff distance between the exact critical points on the contact
         side and those of the discrete solution, known to half a mesh width; unit of length.
         Infinite where only one of the two has any, None where the exact solution names none.
@@ -48,7 +48,7 @@ def contact_errors(mesh, element, solution, exact):
     fixed = element.boundary_dofs(mesh, "dirichlet")
     dofs = np.setdiff1d(element.boundary_dofs(mesh, "contact"), fixed)
     cells, place, normal = element.multiplier_cells(trace, dofs)
-    density = np.tile(contact_flux(mesh, element, dofs, solution.multiplier)[place], (2, 1))
+    density = np.tile(contact_flux(mesh, element, dofs, solution.force)[place], (2, 1))
     u = element.vertex_values(mesh, solution.u)[trace.local, trace.triangles]
     critical = critical_points(mesh, element, dofs, solution.active)
     return {

@@ -27,8 +27,8 @@ def check_data(exact, data, samples, tolerance=_TOLERANCE):
     Raises
     ------
     SceneError
-        Naming the datum, the point and both values; or the point where u >= obstacle, du/dnu >= 0
-        or complementarity fails on the contact side, or where u or its flux jumps inside.
+        Naming the datum, the point and both values; or the point where one of Signorini's
+        conditions fails on the contact side, or where u or its flux jumps inside.
     FormulaError
         Where a value is not finite.
 
@@ -58,35 +58,57 @@ def check_data(exact, data, samples, tolerance=_TOLERANCE):
         compared.insert(0, ("f", data.f, derived.f, inside, slope / extent))
     if exact.obstacle is not None:
         compared.append(("obstacle", data.obstacle, exact.obstacle, contact[:2], u_size))
+    if exact.multiplier is not None:
+        compared.append(("contact_flux", data.contact_flux, derived.contact_flux, contact, slope))
     for name, given, expected, points, size in compared:
         _compare(name, given, expected, points, size, tolerance)
-    _check_contact(exact, data.obstacle, contact, u_size, slope, tolerance)
+    _check_contact(exact, data, contact, u_size, slope, tolerance)
     check_balance(exact, data.f, samples.cells, measured)
 
 
-def _check_contact(exact, obstacle, points, u_size, slope, tolerance):
+def _check_contact(exact, data, points, u_size, slope, tolerance):
     """Check Signorini's conditions at points (x, y, nx, ny) of the contact side.
 
     Gaps are measured in units of `u_size`, fluxes in units of `slope`. The error names the worst
     point of the first condition that fails.
     """
     x, y, nx, ny = points
-    u, alpha, flux = exact.value(x, y), obstacle(x, y), exact.flux(x, y, nx, ny)
-    gap_share = _share(u - alpha, max(u_size, _largest(alpha)))
-    flux_share = _share(flux, slope)
-    conditions = {
-        "u >= obstacle": -gap_share,
-        "du/dnu >= 0": -flux_share,
-        "(u - obstacle) du/dnu = 0": np.minimum(gap_share, flux_share),
-    }
-    for condition, excess in conditions.items():
+    u, alpha, flux = exact.value(x, y), data.obstacle(x, y), exact.flux(x, y, nx, ny)
+    threshold = _evaluate(data.contact_flux, points)
+    sign = _SIGN[data.constraint]
+    gap_share = sign * _share(u - alpha, max(u_size, _largest(alpha)))
+    excess_share = sign * _share(flux - threshold, max(slope, _largest(threshold)))
+    violations = (-gap_share, -excess_share, np.minimum(gap_share, excess_share))
+    for condition, excess in zip(_conditions(data), violations, strict=True):
         if excess.size and excess.max() > tolerance:
             k = int(excess.argmax())
+            told = f", contact_flux = {threshold[k]:.6g}" if _has_threshold(data) else ""
             raise SceneError(
                 f"truth: the exact solution fails {condition} on the contact side at (x, y) = "
                 f"({x[k]:.6g}, {y[k]:.6g}): u = {u[k]:.6g}, obstacle = {alpha[k]:.6g}, "
-                f"du/dnu = {flux[k]:.6g}; change truth, obstacle or boundary"
+                f"du/dnu = {flux[k]:.6g}{told}; change truth, obstacle or boundary"
             )
+
+
+_SIGN = {"lower": 1.0, "upper": -1.0}
+_RELATION = {"lower": ">=", "upper": "<="}
+
+
+def _has_threshold(data):
+    return data.contact_flux.constant != 0.0
+
+
+def _conditions(data):
+    """Signorini's three conditions in words."""
+    relation = _RELATION[data.constraint]
+    least, excess = "0", "du/dnu"
+    if _has_threshold(data):
+        least, excess = "contact_flux", "(du/dnu - contact_flux)"
+    return (
+        f"u {relation} obstacle",
+        f"du/dnu {relation} {least}",
+        f"(u - obstacle) {excess} = 0",
+    )
 
 
 def _compare(name, given, derived, points, size, tolerance):

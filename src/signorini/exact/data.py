@@ -83,7 +83,8 @@ def derived_data(exact):
     -------
     Data
         Of callables with the interface of `Formula`; g also takes the normal (see `Derived`). The
-        obstacle is the solution's own, or zero where it has none.
+        obstacle is the solution's own, or zero where it has none. The threshold of the flux is
+        k du/dnu less the solution's multiplier, or zero where it has none.
 
     Examples
     --------
@@ -99,5 +100,17 @@ def derived_data(exact):
         g=Derived("data.g", exact.flux, needs_normal=True),
         dirichlet=Derived("data.dirichlet", exact.value, checked=checked),
         obstacle=exact.obstacle or Formula("0", "data.obstacle"),
+        contact_flux=_contact_flux(exact),
         **given,
     )
+
+
+def _contact_flux(exact):
+    """The threshold of the flux under which the solution's multiplier is what binds."""
+    if exact.multiplier is None:
+        return Formula("0", "data.contact_flux")
+
+    def threshold(x, y, nx, ny):
+        return exact.flux(x, y, nx, ny) - exact.multiplier(x, y)
+
+    return Derived("data.contact_flux", threshold, needs_normal=True)

@@ -33,6 +33,11 @@ class Diffused(ExactSolution):
         return self.u.obstacle
 
     @property
+    def multiplier(self):
+        """That of u."""
+        return self.u.multiplier
+
+    @property
     def critical_points(self):
         """Those of u."""
         return self.u.critical_points

@@ -130,7 +130,8 @@ def read_exact(truth, coefficient=None, field="truth"):
     ----------
     truth : dict
         Either ``u``, a formula, with ``critical_points`` and ``singular_points``, lists of [x, y],
-        where it has some (singular ones default to the critical ones); or ``family``, a name, with
+        where it has some (singular ones default to the critical ones), and perhaps with
+        ``multiplier``, a formula; or ``family``, a name, with
         ``parameters``.
     coefficient : Formula, optional
         Diffusion coefficient, 1 where not given.
@@ -165,7 +166,11 @@ def read_exact(truth, coefficient=None, field="truth"):
     else:
         critical = _points(truth, "critical_points")
         singular = _points(truth, "singular_points") or critical
-        exact = FormulaSolution(Formula(truth["u"], f"{field}.u"), None, critical, singular)
+        multiplier = None
+        if "multiplier" in truth:
+            multiplier = Formula(truth["multiplier"], f"{field}.multiplier")
+        u = Formula(truth["u"], f"{field}.u")
+        exact = FormulaSolution(u, None, critical, singular, multiplier)
     return with_coefficient(exact, coefficient)
 
 

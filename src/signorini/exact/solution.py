@@ -16,6 +16,9 @@ class ExactSolution(ABC):
     ----------
     obstacle : Formula or None
         Lower bound of u on the contact side, unit of u; None where the data say what it is.
+    multiplier : Formula or None
+        k du/dnu less its threshold on the contact side, unit of k u per length; None where the data
+        say what the threshold is.
     critical_points : tuple of (float, float)
         Where on the contact side the constraint starts to bind, so far as they are known.
     singular_points : tuple of (float, float)
@@ -27,6 +30,7 @@ class ExactSolution(ABC):
     """
 
     obstacle = None
+    multiplier = None
     coefficient = None
     critical_points = ()
     singular_points = ()
@@ -118,6 +122,7 @@ class FormulaSolution(ExactSolution):
     u : Formula
     obstacle : Formula, optional
     critical_points, singular_points : tuple of (float, float)
+    multiplier : Formula, optional
 
     Raises
     ------
@@ -135,6 +140,7 @@ class FormulaSolution(ExactSolution):
     obstacle: Formula | None = None
     critical_points: tuple[tuple[float, float], ...] = ()
     singular_points: tuple[tuple[float, float], ...] = ()
+    multiplier: Formula | None = None
 
     @property
     def constant_load(self):

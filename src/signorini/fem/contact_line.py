@@ -98,13 +98,18 @@ def contact_rows(mesh, solution):
     list of dict
         A row for each contact dof in the order of the line: ``element``, ``n``; ``component``,
         counted from 1; arc length ``s``, ``x`` and ``y``, unit of length; ``u`` and ``obstacle``;
-        ``flux``, see `contact_flux`; ``binding``, 1 or 0; ``critical``, the arc length of the
+        ``flux``, see `contact_flux`; ``threshold``, what flux is held against, where that is not 0;
+        ``binding``, 1 or 0; ``critical``, the arc length of the
         critical point between this row and the next of its component (in a closed one the first
         follows the last), or None. Empty without contact part.
     """
     element = find_element(solution.element)
     line = _ordered(mesh, element, solution.contact, solution.active)
-    flux = contact_flux(mesh, element, solution.contact, solution.multiplier)
+    flux = contact_flux(mesh, element, solution.contact, solution.force)
+    threshold = {}
+    if solution.threshold is not None:
+        density = contact_flux(mesh, element, solution.contact, solution.threshold)
+        threshold = {"threshold": density[line.which]}
     columns = {
         "component": line.component,
         "s": line.s,
@@ -113,6 +118,7 @@ def contact_rows(mesh, solution):
         "u": solution.u[solution.contact][line.which],
         "obstacle": solution.lower[line.which],
         "flux": flux[line.which],
+        **threshold,
         "binding": solution.active[line.which].astype(int),
         "critical": np.where(np.isnan(line.critical), None, line.critical),
     }
@@ -121,7 +127,7 @@ def contact_rows(mesh, solution):
     return [level | dict(zip(columns, row, strict=True)) for row in rows]
 
 
-def contact_flux(mesh, element, contact, multiplier):
+def contact_flux(mesh, element, contact, force):
     """Density of the contact force, k du/dnu, at each contact dof.
 
     Parameters
@@ -130,8 +136,8 @@ def contact_flux(mesh, element, contact, multiplier):
     element : {"P1", "CR"} or Element
     contact : ndarray of int, shape (nc,)
         Contact dofs.
-    multiplier : ndarray, shape (nc,)
-        Force on each.
+    force : ndarray, shape (nc,)
+        Force on each: `Solution.force`.
 
     Returns
     -------
@@ -144,7 +150,7 @@ def contact_flux(mesh, element, contact, multiplier):
     for path in boundary_paths(mesh, "contact"):
         for dofs in element.half_facet_dofs(path):
             np.add.at(length, dofs, 0.5 * path.lengths)
-    return multiplier / length[contact]
+    return force / length[contact]
 
 
 def binding_pieces(mesh, solution):

@@ -21,9 +21,10 @@ MOST_MARKERS = 24  # on a line
 UNITS = {  # what is counted in one unit -> the columns that share it
     "s": ("s", "critical"),
     "u": ("u", "obstacle"),
-    "flux": ("flux",),
+    "flux": ("flux", "threshold"),
 }
 LEFT, RIGHT = 0.09, 0.985  # of the panels, which are stacked
+THRESHOLD = {"linestyle": (0, (1, 1.5))}
 FORCE = r"contact force $k\,\mathrm{d}u/\mathrm{d}\nu$"
 
 
@@ -115,6 +116,8 @@ def _draw_lines(upper, lower, lines):
     first = next(iter(lines.values()))
     style = {"color": BLACK, "linewidth": 0.6, "linestyle": (0, (4, 3)), "zorder": 2}
     upper.plot(*_by_component(first, "obstacle"), label="obstacle", **style)
+    if first["threshold"].any():
+        lower.plot(*_by_component(first, "threshold"), label="threshold", **style | THRESHOLD)
 
 
 def _draw_critical_points(upper, lower, lines):

@@ -1,9 +1,10 @@
 """What the judge found, and how a solution in double precision compares with it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from signorini.fem.mirror import negated
 from signorini.judge.elimination import EXTENDED
 from signorini.solvers.found import LEAST_FORCE
 
@@ -62,6 +63,15 @@ class Judgement:
         """The solution, longdouble, shape (ndof,)."""
         return self.shift + self.displacement
 
+    def mirrored(self):
+        """The judgement of the mirrored problem, see `fem.mirror`."""
+        return replace(
+            self,
+            shift=negated(self.shift),
+            displacement=negated(self.displacement),
+            multiplier=negated(self.multiplier),
+        )
+
     def distance(self, u):
         """Largest error of u, relative to the variation."""
         return ratio(largest((u - self.shift) - self.displacement), self.variation)
@@ -71,7 +81,7 @@ class Judgement:
 
         The largest force at the dofs `decided` (ndarray of bool, shape (nc,)), or else `acting`.
         """
-        size = np.max(self.multiplier, where=decided, initial=0)
+        size = np.max(np.abs(self.multiplier), where=decided, initial=0)
         return max(size, LEAST_FORCE * self.acting) if size else self.acting
 
     def rounding(self, decided):

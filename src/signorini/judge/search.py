@@ -11,6 +11,7 @@ counts is wrong.
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.fem.mirror import mirrored
 from signorini.judge.contact_set import Body
 from signorini.judge.elimination import EXTENDED
 from signorini.judge.judgement import DOUBLE, EPS, SAFETY, Judgement, largest, ratio
@@ -48,6 +49,10 @@ def judge(problem, solution=None):
     >>> truth.error < 1e-15 and truth.distance(solution.u) < 1e-14
     True
     """
+    if problem.upper:
+        image = mirrored(problem)
+        start = None if solution is None else solution.mirrored(image)
+        return judge(image, start).mirrored()
     return _Search(problem).run(solution)
 
 

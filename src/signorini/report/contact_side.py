@@ -2,8 +2,8 @@
 
 import numpy as np
 
-NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical")
-"""Columns of contact_line.csv that are numbers and drawn."""
+NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical", "threshold")
+"""Columns of contact_line.csv that are numbers and drawn; without a threshold it is 0."""
 
 
 def finest_lines(rows, elements):
@@ -38,7 +38,7 @@ def finest_lines(rows, elements):
 
 
 def _column(rows, name):
-    values = [row[name] for row in rows]
+    values = [row.get(name, 0.0) if name == "threshold" else row[name] for row in rows]
     return np.array([np.nan if value in (None, "") else float(value) for value in values])
 
 
@@ -76,12 +76,12 @@ def contact_side(surface):
     Returns
     -------
     dict
-        ``x``, ``obstacle``, ``free`` and ``binding`` (p,): u where it exceeds the obstacle, and
-        where it does not, else NaN; ``points`` (c, 3), the critical points on the obstacle.
+        ``x``, ``obstacle``, ``free`` and ``binding`` (p,): u off the obstacle, and on it, else NaN;
+        ``points`` (c, 3), the critical points on the obstacle.
     """
     x, u = surface["contact_x"], surface["contact_u"]
     obstacle = surface.get("contact_obstacle", np.zeros_like(u))
-    binds = u <= obstacle
+    binds = u == obstacle  # a solution is on it to the last bit, and never beyond
     points = [(px, py, np.interp(px, x, obstacle)) for px, py in surface["critical_points"]]
     return {
         "x": x,

@@ -11,9 +11,11 @@ import importlib
 import importlib.util
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+
+from signorini.fem.mirror import mirrored, negated
 
 TIME_LIMIT = 10.0
 
@@ -132,6 +134,9 @@ class Rival:
         -------
         Answer
         """
+        if problem.upper:
+            answer = self.solve(mirrored(problem), tolerance, time_limit)
+            return replace(answer, u=negated(answer.u))
         bound = BoundProblem.of(problem)
         bound.tolerance = tolerance
         module, function = self.adapter.split(":")

@@ -7,7 +7,7 @@ from itertools import pairwise
 from signorini.errors.norms import CONTACT
 from signorini.exceptions import SceneError
 from signorini.formula import Formula
-from signorini.mesh.boundary import LABELS, SIDES, by_formula
+from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
 from signorini.mesh.cell_counts import count_cells
 from signorini.wording import nearest, shown
 
@@ -33,6 +33,7 @@ def check_document(document):
             "data.coefficient: only a mesh file has subdomains; "
             "give a number or a formula in x and y"
         )
+    _check_contact(document)
     _check_levels(document["levels"])
     _check_truth(document)
     _check_cells(document)
@@ -170,6 +171,22 @@ def _refuse_misspelt_label(boundary):
     )
 
 
+def _check_contact(document):
+    """A threshold of the flux, or a bound from above, needs a part of the boundary to act on."""
+    if "contact" in labels_of(document["boundary"]):
+        return
+    remedy = "label a part of the boundary contact, or drop"
+    if "contact_flux" in document["data"]:
+        value = shown(document["data"]["contact_flux"])
+        raise SceneError(
+            f"data.contact_flux: {value} acts on no part of the boundary; {remedy} contact_flux"
+        )
+    if document["constraint"] == "upper":
+        raise SceneError(
+            f"constraint: upper bounds u on no part of the boundary; {remedy} constraint"
+        )
+
+
 def _check_levels(levels):
     if any(b <= a for a, b in pairwise(levels)):
         raise SceneError(
@@ -183,6 +200,10 @@ def _check_truth(document):
         raise SceneError("data.f: missing; give the volume force, a number or a formula in x and y")
     if truth["kind"] == "exact" and ("u" in truth) == ("family" in truth):
         raise SceneError("truth: an exact truth needs either u, a formula, or family, a name")
+    if "family" in truth and "multiplier" in truth:
+        raise SceneError(
+            "truth.multiplier: a family has its own; drop it, or give u in place of family"
+        )
     if truth["kind"] == "reference":
         _check_reference(levels, truth)
         if domain["kind"] == "rectangle":

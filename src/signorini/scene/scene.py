@@ -119,7 +119,7 @@ class Scene:
     def statement(self):
         """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict."""
         exact = ["truth"] if self.truth["kind"] == "exact" else []
-        parts = self.section("domain", "boundary", "data", "load_quadrature", *exact)
+        parts = self.section("domain", "boundary", "constraint", "data", "load_quadrature", *exact)
         return parts | {"coarsest": self.levels[0]}
 
     @property

@@ -88,8 +88,8 @@ class ProblemStatement:
         Parameters
         ----------
         mapping : dict
-            ``domain``, ``boundary``, ``data`` and ``load_quadrature``; perhaps ``coarsest``, and
-            ``truth`` where it is exact.
+            ``domain``, ``boundary``, ``data`` and ``load_quadrature``; perhaps ``constraint``,
+            ``coarsest``, and ``truth`` where it is exact.
 
         Returns
         -------
@@ -116,6 +116,7 @@ class ProblemStatement:
             data = replace(derived_data(exact), **given)
         else:
             data = Data(**_zero_data() | given)
+        data = replace(data, constraint=mapping.get("constraint", "lower"))
         return cls(
             domain=mapping["domain"],
             boundary=mapping["boundary"],

@@ -1,5 +1,7 @@
 """What is looked at before a problem is solved."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from signorini.exceptions import SolverError
@@ -118,7 +120,7 @@ def check_solvable(problem):
             if part is None
             else np.isin(problem.contact, part, kind="sort").sum()
         )
-        _check_load(load, contact, _place(problem, part))
+        _check_load(load, contact, _place(problem, part), _words(problem))
 
 
 def _floating_parts(problem):
@@ -143,7 +145,23 @@ def _place(problem, part):
     return f" of the part of the body with ({x:.6g}, {y:.6g})"
 
 
-def _check_load(load, contact, place):
+class _Words(NamedTuple):
+    """What the messages of a problem say: the sign of a load that parts, and its integrals."""
+
+    parts: float
+    load: str
+    effect: str
+    mean: str
+
+
+def _words(problem):
+    load = "int f + int g" if problem.contact_load is None else "int f + int g + int contact_flux"
+    if problem.upper:
+        return _Words(-1.0, load, "< 0 draws u down from", "positive")
+    return _Words(1.0, load, "> 0 lifts u off", "negative")
+
+
+def _check_load(load, contact, place, words):
     total, size = float(load.sum()), float(np.abs(load).sum())
     rounding = 8.0 * np.finfo(float).eps * size
     if not contact and place:
@@ -159,13 +177,13 @@ def _check_load(load, contact, place):
         )
     if abs(total) <= rounding:
         raise SolverError(
-            f"nonunique: no dirichlet part{place} and int f + int g = 0, "
+            f"nonunique: no dirichlet part{place} and {words.load} = 0, "
             "so a constant may be added to u; "
             "add a dirichlet part to the boundary"
         )
-    if total > 0.0:
+    if words.parts * total > 0.0:
         raise SolverError(
-            f"unbounded: no dirichlet part{place} and int f + int g = {total:.3e} > 0 "
-            "lifts u off the obstacle without "
-            "end; add a dirichlet part to the boundary, or a load with negative mean"
+            f"unbounded: no dirichlet part{place} and {words.load} = {total:.3e} {words.effect} "
+            "the obstacle without "
+            f"end; add a dirichlet part to the boundary, or a load with {words.mean} mean"
         )

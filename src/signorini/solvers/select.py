@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 
 from signorini.exceptions import NotApplicableError, SolverError
+from signorini.fem.mirror import mirrored
 from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
@@ -72,6 +73,13 @@ def solve(problem, method="auto", guess=None):
     guess = checked_guess(problem, guess)
     method, reason = _choose(problem, method)
     check_solvable(problem)
+    if problem.upper:
+        return _solved(mirrored(problem), method, reason, guess).mirrored(problem)
+    return _solved(problem, method, reason, guess)
+
+
+def _solved(problem, method, reason, guess):
+    """The solution of a problem whose constraint is from below."""
     exponent = _exponent(problem)
     scaled = problem.scaled(-exponent)
     if method != "fourier":
@@ -279,6 +287,6 @@ def _exponent(problem):
     size = max(largest(values) for values in (problem.b, problem.lower, problem.fixed_values))
     if 0.0 < size < np.finfo(float).tiny:
         warnings.warn(
-            f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=3
+            f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=4
         )
     return int(np.frexp(size)[1]) if size else 0

@@ -1,9 +1,10 @@
 """A solution and its proof: the KKT residual, computed from the problem alone."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from signorini.fem.mirror import mirrored, negated
 from signorini.work import count
 
 # What a residual or an accuracy may be called, from the best name to the worst.
@@ -22,7 +23,8 @@ class Solution:
     u : ndarray, shape (ndof,)
         Degrees of freedom, unit of u.
     multiplier : ndarray, shape (nc,)
-        (A u - b) at the contact dofs: the contact force on each, an integral of du/dnu.
+        (A u - b) at the contact dofs: the contact force on each, an integral of k du/dnu, less that
+        of its threshold s. None is negative, or where the constraint is from above, positive.
     active : ndarray of bool, shape (nc,)
         Where the constraint binds.
     residual : float
@@ -71,13 +73,43 @@ class Solution:
     problem: object = field(repr=False)
 
     @property
+    def force(self):
+        """Contact force on each contact dof, an integral of k du/dnu, (nc,), unit of k u.
+
+        The `multiplier` and the threshold's part.
+        """
+        threshold = self.problem.threshold
+        return self.multiplier if threshold is None else self.multiplier + threshold
+
+    @property
     def flux(self):
         """Contact force per length, k du/dnu, at each contact dof, shape (nc,), unit of k u per
         length.
 
-        The `multiplier` over `Problem.contact_lengths`; it belongs to `Problem.contact_points`.
+        The `force` over `Problem.contact_lengths`; it belongs to `Problem.contact_points`.
         """
-        return self.multiplier / self.problem.contact_lengths
+        return self.force / self.problem.contact_lengths
+
+    def mirrored(self, problem):
+        """The solution of the mirrored problem, see `fem.mirror`.
+
+        Parameters
+        ----------
+        problem : Problem
+            Of which the problem of this solution is the mirror image.
+
+        Returns
+        -------
+        Solution
+        """
+        return replace(
+            self,
+            u=negated(self.u),
+            multiplier=negated(self.multiplier),
+            constant=negated(self.constant),
+            deviation=negated(self.deviation),
+            problem=problem,
+        )
 
 
 def kkt_residual(problem, u):
@@ -93,7 +125,8 @@ def kkt_residual(problem, u):
 
     it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G, min((u
     - lower)+ / G, lambda+ / F_c), and the deviation of the Dirichlet values over G. A force on a
-    contact dof counts only beyond what rounding u to doubles adds to it, 2 eps (|A| |u|).
+    contact dof counts only beyond what rounding u to doubles adds to it, 2 eps (|A| |u|). Where the
+    constraint is from above, that of -u for the mirrored problem.
 
     Parameters
     ----------
@@ -106,6 +139,9 @@ def kkt_residual(problem, u):
         Dimensionless; infinite where u is not finite.
     multiplier : ndarray, shape (nc,)
     """
+    if problem.upper:
+        residual, multiplier = kkt_residual(mirrored(problem), negated(u))
+        return residual, negated(multiplier)
     count(products=1)
     if not np.isfinite([np.min(u, initial=0.0), np.max(u, initial=0.0)]).all():
         return np.inf, problem.apply(u)[problem.contact] - problem.b[problem.contact]

@@ -11,8 +11,8 @@ from signorini.storage import read_npz, write_npz
 class StoredSolution:
     """A solution as `read_solution` returns it; see `solvers.Solution` for what the parts mean.
 
-    ``dofs`` counts the free degrees of freedom; ``contact`` and ``lower`` are those of the
-    `Problem`; ``h`` has the unit of length.
+    ``dofs`` counts the free degrees of freedom; ``contact``, ``lower``, ``threshold`` and ``upper``
+    are those of the `Problem`; ``h`` has the unit of length.
     """
 
     element: str
@@ -31,6 +31,13 @@ class StoredSolution:
     status: str
     iterations: int
     method: str
+    threshold: np.ndarray | None = None
+    upper: bool = False
+
+    @property
+    def force(self):
+        """Contact force on each contact dof, an integral of k du/dnu, (nc,), unit of k u."""
+        return self.multiplier if self.threshold is None else self.multiplier + self.threshold
 
 
 def stored(problem, solution, n, h):
@@ -67,6 +74,8 @@ def stored(problem, solution, n, h):
         status=solution.status,
         iterations=solution.iterations,
         method=solution.method,
+        threshold=problem.threshold,
+        upper=problem.upper,
     )
 
 
@@ -79,7 +88,14 @@ def write_solution(path, problem, solution, n, h):
     problem, solution, n, h
         See `stored`.
     """
-    write_npz(path, kind="solution", **vars(stored(problem, solution, n, h)))
+    parts = vars(stored(problem, solution, n, h))
+    kept = {key: value for key, value in parts.items() if value is not _ABSENT.get(key, _KEPT)}
+    write_npz(path, kind="solution", **kept)
+
+
+# Parts that most solutions do not have, and what says so: they are not written then.
+_KEPT = object()
+_ABSENT = {"threshold": None, "upper": False}
 
 
 def read_solution(path):

@@ -28,7 +28,7 @@ DATA = {
 }
 
 
-def statement(labels=PAPER, load_quadrature="exact", domain=None, **data):
+def statement(labels=PAPER, load_quadrature="exact", domain=None, constraint="lower", **data):
     return ProblemStatement.from_mapping(
         {
             "domain": {"origin": [0, 0], "size": [1, 1], "diagonal": "falling", "cells": "per-side"}
@@ -36,6 +36,7 @@ def statement(labels=PAPER, load_quadrature="exact", domain=None, **data):
             "boundary": dict(zip(SIDES, labels, strict=True)),
             "data": {"f": 0, "g": 0, "dirichlet": 0, "obstacle": 0} | data,
             "load_quadrature": load_quadrature,
+            "constraint": constraint,
         }
     )
 

@@ -71,7 +71,8 @@ def sloping(
     }
     state = {
         "active": x[contact] >= turn,
-        "multiplier": np.maximum(x[contact] - turn, 0) * height / n,
+        "force": np.maximum(x[contact] - turn, 0) * height / n,
+        "threshold": None,
     }
     return mesh, SimpleNamespace(**found, **state, lower=np.zeros(contact.size))
 

@@ -49,5 +49,6 @@ def solution(mesh, element, binds=lambda x, y: x + y > 0.7, u=lambda x, y: 1 + x
         contact=contact,
         active=active,
         lower=0.1 * x,
-        multiplier=force,
+        force=force,
+        threshold=None,
     )

@@ -302,7 +302,7 @@ def test_numbering_does_not_matter(element, name):
             contact.boundary_dofs(one, "contact"), contact.boundary_dofs(one, "dirichlet")
         )
         at = contact.nodes(one, dofs)[0]
-        solution = SimpleNamespace(u=np.sin(x + 2 * y), multiplier=np.cos(at), active=at < 0.2)
+        solution = SimpleNamespace(u=np.sin(x + 2 * y), force=np.cos(at), active=at < 0.2)
         found.append(
             ExactErrors(exact).of(one, element, solution.u)
             | contact_errors(one, element, solution, exact)
@@ -354,7 +354,7 @@ def test_contact_norms_against_adaptive_quadrature(element, labels):
     x = x[1:-1] if element == "P1" and held else x
     force = rng.standard_normal(x.size)
     u = rng.standard_normal(find_element(element).size(mesh))
-    solution = SimpleNamespace(u=u, multiplier=force, active=x < 0.1)
+    solution = SimpleNamespace(u=u, force=force, active=x < 0.1)
     found = contact_errors(mesh, element, solution, exact)
     # The bottom row of triangles has its corners 0 and 1 on the contact side.
     trace = find_element(element).vertex_values(mesh, u)[:2, :3]
@@ -394,7 +394,7 @@ def test_distance_of_critical_points(element):
             {"u": "x", "critical_points": [(p, 0.0) for p in points], "singular_points": [[9, 9]]}
         )
         solution = SimpleNamespace(
-            u=np.zeros(kind.size(mesh)), multiplier=np.zeros(x.size), active=active
+            u=np.zeros(kind.size(mesh)), force=np.zeros(x.size), active=active
         )
         return contact_errors(mesh, element, solution, exact)["critical_points"]
 
@@ -420,9 +420,7 @@ def test_a_single_cell(element):
 
 def test_no_contact_side():
     mesh = grid(4, labels=("dirichlet",) * 4)
-    solution = SimpleNamespace(
-        u=np.zeros(25), multiplier=np.zeros(0), active=np.zeros(0, dtype=bool)
-    )
+    solution = SimpleNamespace(u=np.zeros(25), force=np.zeros(0), active=np.zeros(0, dtype=bool))
     found = contact_errors(mesh, "P1", solution, family("corner"))
     assert found == {"trace_l2": 0.0, "multiplier_l2": 0.0, "critical_points": None}
 
@@ -491,7 +489,13 @@ def test_critical_points_off_the_contact_part_are_no_silent_dash(element, point,
     proof = {"accuracy": 0.0, "multiplier_accuracy": 0.0, "residual": 0.0}
     u, active = np.ones(kind.size(mesh)), kind.nodes(mesh, contact)[0] < 0.1
     found = SimpleNamespace(
-        element=element, n=4, u=u, multiplier=1.0 * active, active=active, **proof
+        element=element,
+        n=4,
+        u=u,
+        multiplier=1.0 * active,
+        force=1.0 * active,
+        active=active,
+        **proof,
     )
     errors = against_exact(
         ProblemStatement.from_mapping(mapping),

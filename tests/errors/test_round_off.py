@@ -58,7 +58,7 @@ def measured(mapping, element, n, method="auto", norms=INTEGRALS):
 
 
 def stored(problem, solution, n):
-    names = ("u", "multiplier", "active", "accuracy", "multiplier_accuracy", "residual")
+    names = ("u", "multiplier", "force", "active", "accuracy", "multiplier_accuracy", "residual")
     parts = {name: getattr(solution, name) for name in names}
     return SimpleNamespace(
         element=problem.element, n=n, contact=problem.contact, lower=problem.lower, **parts

@@ -69,3 +69,16 @@ def test_contact_line_that_cannot_be_drawn_is_refused():
         draw_contact_line([])
     with pytest.raises(ValueError, match="known: P1, CR"):
         draw_contact_line([row | {"element": "P2"} for row in sloping_rows()])
+
+
+def test_the_threshold_is_drawn_below_where_there_is_one():
+    rows = [row | {"threshold": 0.25 * row["s"]} for row in sloping_rows()]
+    figure = draw_contact_line(rows)
+    assert "threshold" in legend(figure)
+    assert "threshold" not in legend(draw_contact_line(sloping_rows()))
+    line = next(line for line in figure.axes[1].lines if line.get_label() == "threshold")
+    x, y = line.get_data()
+    own = [row for row in rows if row["element"] == rows[0]["element"]]
+    np.testing.assert_allclose(x, [row["s"] for row in own])
+    unit = y[-1] / own[-1]["threshold"]
+    np.testing.assert_allclose(y, [unit * row["threshold"] for row in own])

@@ -198,6 +198,34 @@ BAD_INPUT = {
     "not utf-8": (b"title: \xff\n", "not UTF-8"),
     "deep": ("[" * 50_000, "malformed YAML"),
     "long": ("#" * 200_000, "longer than 100000 characters"),
+    "threshold without contact part": (
+        changed("bottom: contact", "bottom: neumann").replace("obstacle: 0", "contact_flux: 0.5"),
+        "data.contact_flux: 0.5 acts on no part of the boundary; label a part of the boundary "
+        "contact, or drop contact_flux",
+    ),
+    "bound from above without contact part": (
+        changed("bottom: contact", "bottom: neumann") + "constraint: upper\n",
+        "constraint: upper bounds u on no part of the boundary",
+    ),
+    "threshold not finite": (
+        changed("obstacle: 0", "contact_flux: .inf"),
+        "data.contact_flux: inf",
+    ),
+    "unknown constraint": (
+        VALID + "constraint: above\n",
+        'constraint: "above" is not valid; known: lower, upper',
+    ),
+    "multiplier of a family": (
+        changed(
+            "truth: {kind: reference, element: P1, n: 32}",
+            "truth: {kind: exact, family: patch, multiplier: 1}",
+        ),
+        "truth.multiplier: a family has its own; drop it, or give u in place of family",
+    ),
+    "multiplier of a reference": (
+        changed("n: 32}", "n: 32, multiplier: 1}"),
+        "truth.multiplier: only for kind exact, here kind is reference",
+    ),
 }
 
 

@@ -44,13 +44,7 @@ def assemble_load(mesh, element, f, g, rule):
         b = _on_grid(mesh, element, f, points, shape)
     else:
         b = _on_triangles(mesh, element, f, points, shape)
-    fluxes = {"neumann": g}
-    if isinstance(g, ByPart):
-        _check_apart(mesh, g)
-        fluxes = {part_key(name): own for name, own in g.parts.items()}
-    for label, flux in fluxes.items():
-        if flux.constant != 0.0:
-            _add_flux(b, mesh, element, flux, label)
+    _add_fluxes(b, mesh, element, g, "neumann")
     return b
 
 
@@ -61,7 +55,7 @@ def assemble_contact_load(mesh, element, contact_flux):
     ----------
     mesh : Grid or Triangulation
     element : Element
-    contact_flux : Formula
+    contact_flux : Formula, Function or ByPart
         The threshold, unit of k u per length.
 
     Returns
@@ -72,8 +66,19 @@ def assemble_contact_load(mesh, element, contact_flux):
     if contact_flux.constant == 0.0:
         return None
     b = np.zeros(element.size(mesh))
-    _add_flux(b, mesh, element, contact_flux, "contact")
+    _add_fluxes(b, mesh, element, contact_flux, "contact")
     return b
+
+
+def _add_fluxes(b, mesh, element, flux, label):
+    """Add int g phi over the facets with a label, or over each of the parts that g is given on."""
+    fluxes = {label: flux}
+    if isinstance(flux, ByPart):
+        _check_apart(mesh, flux)
+        fluxes = {part_key(name): own for name, own in flux.parts.items()}
+    for key, own in fluxes.items():
+        if own.constant != 0.0:
+            _add_flux(b, mesh, element, own, key)
 
 
 def _check_apart(mesh, g):

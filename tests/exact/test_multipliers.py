@@ -20,8 +20,8 @@ from signorini.solvers import solve
 from signorini.solvers.stored import stored
 
 # On -0.5 <= x <= 0.5: in contact with the obstacle sin 2x for x < 0.1, where the multiplier is
-# (0.1 - x)^2, and 4 (x - 0.1)^2 above it elsewhere.
-U = "sin(2*x)*cosh(y) + 4*pos(x - 0.1)**2*(1 - y**2) + y*x**2"
+# (0.1 - x)^2, and 8 (x - 0.1)^3 above it elsewhere.
+U = "sin(2*x)*cosh(y) + 8*pos(x - 0.1)**3*(1 - y**2) + y*x**2"
 TRUTH = {"kind": "exact", "u": U, "multiplier": "pos(0.1 - x)**2", "critical_points": [[0.1, 0]]}
 OBSTACLE = "sin(2*x)"
 SIDES = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}

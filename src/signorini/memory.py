@@ -66,6 +66,11 @@ def shortage(triangles, bytes_each):
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> shortage(2**31, 1)
+    'has 2147 million triangles, more than the 1074 million that can be numbered'
     """
     count = _plain(triangles)
     if triangles * bytes_each <= _memory():

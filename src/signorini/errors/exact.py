@@ -70,6 +70,16 @@ class ExactErrors:
         ------
         FormulaError
             Where the exact solution or its gradient is not finite.
+
+        Examples
+        --------
+        >>> from signorini.exact import family
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> errors = ExactErrors(family("patch"), ["l2"]).of(grid, "P1", 2.0 - grid.p[1])
+        >>> round(errors["l2"], 12)
+        1.0
         """
         values = find_element(element).vertex_values(mesh, u)
         wanted = set(self.norms)

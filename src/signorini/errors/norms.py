@@ -22,6 +22,11 @@ class Norm:
         At the axis of a figure.
     symbol : str
         Where there is little room.
+
+    Examples
+    --------
+    >>> NORMS["h1_semi"].text
+    'H1 seminorm'
     """
 
     heading: str

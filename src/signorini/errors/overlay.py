@@ -49,6 +49,17 @@ class Overlay:
     ------
     MeshError
         If a mesh is not made in this way, or the cells do not fit.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> fine = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "rising", labels)
+    >>> coarse = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> overlay = Overlay(fine, coarse)
+    >>> errors = overlay.errors(("P1", fine.p[0]), ("P1", coarse.p[0]), ["exact"])
+    >>> errors["exact"]["h1"] < 1e-14
+    True
     """
 
     def __init__(self, fine, coarse):

@@ -32,6 +32,14 @@ def prolong(mesh, values):
     Returns
     -------
     ndarray, shape (3, nt)
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> prolong(mesh, mesh.coarser().corner_values(mesh.coarser().p[0])).shape
+    (3, 8)
     """
     return mesh.from_vertex_children(np.stack([P @ values for P in PROLONG]))
 
@@ -49,6 +57,15 @@ def project(mesh, values):
     projection : ndarray, shape (3, nt / 4)
     rest : float
         Squared L2 norm of the difference.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> projection, rest = project(mesh, mesh.corner_values(mesh.p[0]))
+    >>> projection.shape, bool(abs(rest) < 1e-15)
+    ((3, 2), True)
     """
     family = mesh.vertex_children(values)
     projection = sum(P @ child for P, child in zip(PROJECT, family, strict=True))

@@ -40,6 +40,15 @@ def rate_rows(errors):
     ------
     SignoriniError
         As `slopes`.
+
+    Examples
+    --------
+    >>> errors = [
+    ...     {"element": "CR", "h": 0.5, "l2": 1.0, "floor": ""},
+    ...     {"element": "CR", "h": 0.25, "l2": 0.25, "floor": ""},
+    ... ]
+    >>> rate_rows(errors)[0]
+    {'element': 'CR', 'norm': 'l2', 'kind': 'mean', 'slope': 2.0, 'floor': '0'}
     """
     rows = []
     for element in dict.fromkeys(row["element"] for row in errors):
@@ -81,6 +90,11 @@ def trouble_of(row):
     """What is wrong with the slope of a row of rates.csv, as `rate_rows` names it.
 
     ``"0"`` where nothing is.
+
+    Examples
+    --------
+    >>> trouble_of({"element": "P1", "slope": "1.98"}), trouble_of({"floor": "reference"})
+    ('0', 'reference')
     """
     return str(row.get("floor", SOUND))
 
@@ -107,6 +121,12 @@ def reference_note(truth, levels, elements):
     -------
     str or None
         One line; None where the truth is no reference, or fine enough.
+
+    Examples
+    --------
+    >>> truth = {"kind": "reference", "element": "P1", "n": 8}
+    >>> print(reference_note(truth, [2, 4, 8], ["P1"]))
+    the reference, n = 8, is no finer than the finest level: there P1 is the reference ...
     """
     if truth["kind"] != "reference" or truth["n"] >= FINE_ENOUGH * levels[-1]:
         return None

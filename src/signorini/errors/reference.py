@@ -45,6 +45,17 @@ class ReferenceErrors:
     ------
     SceneError
         If a norm is unknown.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> fine = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> truth = ReferenceErrors(fine, "P1", fine.p[0] ** 2, ["l2", "h1"])
+    >>> coarse = fine.coarser()
+    >>> errors = truth.of(coarse, "P1", coarse.p[0] ** 2)
+    >>> errors["l2"] < errors["h1"]
+    True
     """
 
     def __init__(self, mesh, element, u, norms=ALWAYS_NAMED, quadrature="exact", coefficient=None):

@@ -76,6 +76,16 @@ def scales(exact, cells):
         eps**(2/3), and the tolerance 8 times its root, 5e-5 on the unit square. A line on which k
         jumps is found to within eps, which is less than the tolerance of that height. Where u ~
         s**1.5 beside a line or point, the error of quadrature is the root of the height.
+
+    Examples
+    --------
+    >>> from signorini.exact.families import family
+    >>> from signorini.exact.samples import Samples
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> samples = Samples.of(Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    >>> float(scales(family("patch"), samples.cells).slope)
+    1.0
     """
     centroids = cells.mean(axis=1)
     u = exact.value(*centroids)

@@ -22,6 +22,13 @@ class Diffused(ExactSolution):
     See Also
     --------
     with_coefficient : Makes one only where the coefficient is not 1.
+
+    Examples
+    --------
+    >>> from signorini.exact.families import family
+    >>> exact = Diffused(family("patch"), Formula("1 + x"))
+    >>> float(exact.flux(1.0, 0.0, 0.0, -1.0)), float(exact.load(1.0, 0.5))
+    (2.0, 0.0)
     """
 
     u: ExactSolution

@@ -71,6 +71,11 @@ class Family:
     parameters : dict of str to Parameter
     build : callable
         From the parameters, by name, to an `ExactSolution`.
+
+    Examples
+    --------
+    >>> sorted(FAMILIES["punch"].parameters)
+    ['half_width', 'x0', 'y0']
     """
 
     title: str

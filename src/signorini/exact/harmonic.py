@@ -52,6 +52,11 @@ class Harmonic(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        >>> float(Corner(amplitude=1.0, x0=0.5, y0=0.0).load(0.7, 0.2))
+        0.0
         """
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
 
@@ -111,6 +116,12 @@ class Corner(Harmonic):
         Unit of u per length**(3/2).
     x0, y0 : float
         The critical point, unit of length.
+
+    Examples
+    --------
+    >>> corner = Corner(amplitude=1.0, x0=0.5, y0=0.0)
+    >>> float(corner.value(1.5, 0.0)), float(corner.flux(0.25, 0.0, 0.0, -1.0))
+    (1.0, 0.75)
     """
 
     amplitude: float
@@ -161,6 +172,12 @@ class Punch(Harmonic):
     ----------
     .. [1] W. Kahan, Branch cuts for complex elementary functions, or: Much ado about nothing's sign
        bit, in: The State of the Art in Numerical Analysis, Oxford University Press, 1987, 165-211.
+
+    Examples
+    --------
+    >>> punch = Punch(half_width=0.25, x0=0.5, y0=0.0)
+    >>> punch.critical_points
+    ((0.25, 0.0), (0.75, 0.0))
     """
 
     half_width: float

@@ -90,6 +90,15 @@ class Samples:
         Returns
         -------
         Samples
+
+        Examples
+        --------
+        >>> from signorini.mesh.rectangle import Rectangle
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> square = Rectangle((0.0, 0.0), (1.0, 1.0), "falling", "per-unit", sides)
+        >>> samples = Samples.of_domain(square, 2)
+        >>> samples.cells.shape
+        (2, 3, 2048)
         """
         boundary = domain.boundary if domain.boundary and by_formula(domain.boundary) else None
         if not isinstance(domain, Rectangle):

@@ -48,6 +48,12 @@ class ExactSolution(ABC):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> float(family("patch").value(0.5, 0.25))
+        0.75
         """
 
     @abstractmethod
@@ -63,6 +69,13 @@ class ExactSolution(ABC):
         -------
         ux, uy : ndarray
             du/dx and du/dy, unit of u per length.
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> ux, uy = family("patch").gradient(0.5, 0.25)
+        >>> float(ux), float(uy)
+        (0.0, -1.0)
         """
 
     def value_and_gradient(self, x, y):
@@ -76,6 +89,13 @@ class ExactSolution(ABC):
         Returns
         -------
         u, ux, uy : ndarray
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> u, ux, uy = family("patch").value_and_gradient(0.5, 0.25)
+        >>> float(u), float(ux), float(uy)
+        (0.75, 0.0, -1.0)
         """
         return self.value(x, y), *self.gradient(x, y)
 
@@ -92,6 +112,12 @@ class ExactSolution(ABC):
         -------
         ndarray
             Unit of k u per length squared.
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> float(family("uniform-load", {"c": 2}).load(0.5, 0.25))
+        2.0
         """
 
     def flux(self, x, y, nx, ny):
@@ -108,6 +134,12 @@ class ExactSolution(ABC):
         -------
         ndarray
             Unit of k u per length.
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> float(family("patch").flux(0.5, 0.0, 0.0, -1.0))
+        1.0
         """
         ux, uy = self.gradient(x, y)
         return ux * nx + uy * ny + 0.0
@@ -144,7 +176,13 @@ class FormulaSolution(ExactSolution):
 
     @property
     def constant_load(self):
-        """Zero where u mentions no variable, else None: not known."""
+        """Zero where u mentions no variable, else None: not known.
+
+        Examples
+        --------
+        >>> FormulaSolution(Formula("1", "truth.u")).constant_load
+        0.0
+        """
         return None if self.u.variables else 0.0
 
     def value(self, x, y):
@@ -158,6 +196,12 @@ class FormulaSolution(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        >>> exact = FormulaSolution(Formula("x**2*y", "truth.u"))
+        >>> float(exact.value(3.0, 2.0))
+        18.0
         """
         return self.u(x, y)
 
@@ -172,6 +216,13 @@ class FormulaSolution(ExactSolution):
         Returns
         -------
         ux, uy : ndarray
+
+        Examples
+        --------
+        >>> exact = FormulaSolution(Formula("x**2*y", "truth.u"))
+        >>> ux, uy = exact.gradient(3.0, 2.0)
+        >>> float(ux), float(uy)
+        (12.0, 9.0)
         """
         return tuple(self.u.expand(("d/dx", "d/dy"), x, y))
 
@@ -200,5 +251,11 @@ class FormulaSolution(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        >>> exact = FormulaSolution(Formula("x**2*y", "truth.u"))
+        >>> float(exact.load(3.0, 2.0))
+        -4.0
         """
         return 0.0 - self.u.laplacian(x, y)

@@ -27,6 +27,11 @@ def scenes_of(series):
     -------
     list of str
         In the order of the keys.
+
+    Examples
+    --------
+    >>> scenes_of({("paper", "P1", "direct"): [], ("paper", "CR", "direct"): []})
+    ['paper']
     """
     return list(dict.fromkeys(scene for scene, _, _ in series))
 
@@ -44,6 +49,12 @@ def style_of_series(series, element, method):
     Returns
     -------
     dict
+
+    Examples
+    --------
+    >>> series = {("paper", "P1", "fourier"): [], ("paper", "P1", "direct"): []}
+    >>> style_of_series(series, "P1", "direct")["linestyle"]
+    (0, (4, 2))
     """
     routes = list(dict.fromkeys(route for _, _, route in series))
     return {

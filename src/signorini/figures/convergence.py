@@ -36,6 +36,16 @@ def draw_convergence(errors, norm, slopes=None):
     ------
     ValueError
         If no error in this norm is given, or an element has no style here.
+
+    Examples
+    --------
+    >>> errors = [
+    ...     {"element": "CR", "n": 2, "h": 0.5, "l2": 0.4, "floor": ""},
+    ...     {"element": "CR", "n": 4, "h": 0.25, "l2": 0.1, "floor": ""},
+    ... ]
+    >>> figure = draw_convergence(errors, "l2", {"CR": 2.0})
+    >>> figure.axes[0].get_xscale()
+    'log'
     """
     points = _points(errors, norm)
     elements = elements_in(points)

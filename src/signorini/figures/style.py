@@ -71,6 +71,12 @@ def new_figure(width, height):
     Returns
     -------
     matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> figure = new_figure(TEXT_WIDTH, 50 * MM)
+    >>> [round(float(size), 2) for size in figure.get_size_inches()]
+    [5.91, 1.97]
     """
     with matplotlib.rc_context(STYLE):
         return Figure(figsize=(width, height), layout="none")
@@ -92,6 +98,13 @@ def add_axes(figure, left, bottom, width, height, **options):
     Returns
     -------
     matplotlib.axes.Axes
+
+    Examples
+    --------
+    >>> figure = new_figure(100 * MM, 50 * MM)
+    >>> axes = add_axes(figure, 10 * MM, 10 * MM, 80 * MM, 30 * MM)
+    >>> [round(float(part), 2) for part in axes.get_position().bounds]
+    [0.1, 0.2, 0.8, 0.6]
     """
     page_width, page_height = figure.get_size_inches()
     place = (left / page_width, bottom / page_height, width / page_width, height / page_height)
@@ -117,6 +130,15 @@ def save_figure(figure, path, colours=None):
         If the suffix is neither of the two.
     StorageError
         If the file cannot be written; the old one is then as it was.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> figure = new_figure(100 * MM, 50 * MM)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_figure(figure, f"{folder}/empty.pdf")
+    ...     Path(folder, "empty.pdf").is_file()
+    True
     """
     path = Path(path)
     if path.suffix not in FORMATS:

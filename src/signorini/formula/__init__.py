@@ -77,6 +77,11 @@ class Formula:
         """The coordinates that the value depends on: a frozenset of "x" and "y".
 
         `r` and `theta` depend on both.
+
+        Examples
+        --------
+        >>> sorted(Formula("x*sin(2*pi*x)").variables)
+        ['x']
         """
         return frozenset(step.name for step in self.program) & {"x", "y"}
 
@@ -85,6 +90,11 @@ class Formula:
         """The value as a float if the text mentions no variable, else None.
 
         FormulaError if it is not finite.
+
+        Examples
+        --------
+        >>> Formula("2*pi").constant, Formula("x + 1").constant
+        (6.283185307179586, None)
         """
         if self.variables:
             return None
@@ -116,7 +126,14 @@ class Formula:
         return self.expand(("value",), x, y, check)[0]
 
     def gradient(self):
-        """Exact partial derivatives along x and y, a pair of `Partial`."""
+        """Exact partial derivatives along x and y, a pair of `Partial`.
+
+        Examples
+        --------
+        >>> dx, dy = Formula("x**2*y").gradient()
+        >>> float(dx(3.0, 2.0)), float(dy(3.0, 2.0))
+        (12.0, 9.0)
+        """
         return Partial(self, "x"), Partial(self, "y")
 
     def value_and_gradient(self, x, y, *, check=True):

@@ -178,6 +178,11 @@ class Source:
         ------
         FormulaError
             If the text is too long, or has a character or number that no formula has.
+
+        Examples
+        --------
+        >>> [token.text for token in Source("2*x + 1", "data.f").tokens()]
+        ['2', '*', 'x', '+', '1', 'nothing']
         """
         if len(self.text) > _MAX_CHARACTERS:
             problem = f"more than {_MAX_CHARACTERS} characters"

@@ -72,6 +72,12 @@ def pressed_flat(n, aspect, seed):
     Returns
     -------
     NamedMesh
+
+    Examples
+    --------
+    >>> mesh = pressed_flat(4, 0.1, seed=0)
+    >>> float(mesh.p[1].max())
+    0.1
     """
     return _flat(perturbed(_named(grid(n, n)), 0.9, seed), aspect)
 
@@ -184,6 +190,12 @@ def one_of(rng, choices):
     -------
     object
         One of them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> one_of(np.random.default_rng(0), ["a", "b"]) in ["a", "b"]
+    True
     """
     return choices[rng.integers(len(choices))]
 

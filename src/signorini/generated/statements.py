@@ -47,6 +47,11 @@ def square(size=1.0, offset=0.0):
     -------
     dict
         As a scene has it.
+
+    Examples
+    --------
+    >>> square(2.0)["size"]
+    [2.0, 2.0]
     """
     return {
         "origin": [offset, offset],
@@ -72,10 +77,21 @@ def grid(nx, ny, labels=LABELS, diagonal="falling", width=1.0):
     Returns
     -------
     Grid
+
+    Examples
+    --------
+    >>> grid(4, 2).number_of_triangles
+    16
     """
     return Grid(nx, ny, (0.0, 0.0), (width, 1.0), diagonal, labels)
 
 
 def by_side(labels):
-    """Labels in the order of SIDES, as a dict by side."""
+    """Labels in the order of SIDES, as a dict by side.
+
+    Examples
+    --------
+    >>> by_side(LABELS)
+    {'bottom': 'contact', 'right': 'neumann', 'top': 'dirichlet', 'left': 'neumann'}
+    """
     return dict(zip(SIDES, labels, strict=True))

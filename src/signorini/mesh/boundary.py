@@ -38,5 +38,11 @@ def part_key(name):
 
 
 def labels_of(boundary):
-    """The set of labels that the section ``boundary`` gives to some part of the boundary."""
+    """The set of labels that the section ``boundary`` gives to some part of the boundary.
+
+    Examples
+    --------
+    >>> labels_of({"bottom": "contact", "left": "contact"})
+    {'contact'}
+    """
     return set(boundary) if by_formula(boundary) else set(boundary.values())

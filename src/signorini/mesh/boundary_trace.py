@@ -39,7 +39,17 @@ class BoundaryTrace:
     normal: np.ndarray
 
     def points(self, s):
-        """Coordinates x, y, shape (m, q), at the fractions `s`, shape (q,), of each facet."""
+        """Coordinates x, y, shape (m, q), at the fractions `s`, shape (q,), of each facet.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> x, y = find_boundary_trace(mesh, "contact").points(np.array([0.5]))
+        >>> x.ravel()
+        array([0.25, 0.75])
+        """
         return (start[:, None] + s * (end - start)[:, None] for start, end in self.ends)
 
     def evenly_spaced(self, counts):

@@ -98,6 +98,12 @@ def longest_edge(mesh):
     Returns
     -------
     float
+
+    Examples
+    --------
+    >>> from signorini.mesh.patterns import criss_cross
+    >>> longest_edge(criss_cross(2, 2, (0, 0), (1, 1)))
+    0.5
     """
     a, b = mesh.facets
     return float(np.hypot(*(mesh.p[:, a] - mesh.p[:, b])).max())

@@ -74,6 +74,11 @@ def lexicographic_order(first, second, count):
     Returns
     -------
     ndarray of int, shape (k,)
+
+    Examples
+    --------
+    >>> lexicographic_order(np.array([2, 0, 2]), np.array([1, 3, 0]), 4)
+    array([1, 2, 0])
     """
     if first.size <= _FEW:
         return np.lexsort([second, first])
@@ -95,5 +100,11 @@ def sorted_pairs(one, other):
     Returns
     -------
     ndarray, shape (2, k)
+
+    Examples
+    --------
+    >>> sorted_pairs(np.array([3, 1]), np.array([2, 5]))
+    array([[2, 1],
+           [3, 5]])
     """
     return np.stack([np.minimum(one, other), np.maximum(one, other)])

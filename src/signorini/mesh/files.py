@@ -22,6 +22,11 @@ def files_read(path):
         The file itself, whether or not there is one, and those that are there of the others: the
         HDF5 files that an .xdmf names, the mesh functions ``<name>_*.xml`` beside a DOLFIN
         ``<name>.xml``.
+
+    Examples
+    --------
+    >>> files_read("config/meshes/gasket.msh")
+    [PosixPath('config/meshes/gasket.msh')]
     """
     path = Path(path)
     suffix = path.suffix.lower()

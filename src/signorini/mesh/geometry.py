@@ -15,6 +15,11 @@ def cross(u, v):
     -------
     ndarray
         Product of both units; positive where `v` lies to the left of `u`.
+
+    Examples
+    --------
+    >>> cross(np.array([2.0, 0.0]), np.array([1.0, 3.0]))
+    np.float64(6.0)
     """
     return u[0] * v[1] - u[1] * v[0]
 
@@ -33,13 +38,24 @@ def doubled_areas(p, t):
     -------
     ndarray, shape (nt,)
         Unit of length squared.
+
+    Examples
+    --------
+    >>> doubled_areas(np.array([[0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]), np.array([[0], [1], [2]]))
+    array([2.])
     """
     a, b, c = (p[:, vertices] for vertices in t)
     return cross(b - a, c - a)
 
 
 def triangle_areas(corners):
-    """Area of triangles with `corners`, shape (2, 3, k): an array of shape (k,)."""
+    """Area of triangles with `corners`, shape (2, 3, k): an array of shape (k,).
+
+    Examples
+    --------
+    >>> triangle_areas(np.array([[[0.0], [2.0], [0.0]], [[0.0], [0.0], [1.0]]]))
+    array([1.])
+    """
     a, b, c = corners.transpose(1, 0, 2)
     return 0.5 * np.abs(cross(b - a, c - a))
 

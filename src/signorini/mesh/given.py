@@ -80,6 +80,12 @@ def from_skfem(mesh):
     ------
     MeshError
         If its cells are no triangles of three vertices.
+
+    Examples
+    --------
+    >>> from skfem import MeshTri
+    >>> sorted(from_skfem(MeshTri().with_defaults()).parts)
+    ['bottom', 'left', 'right', 'top']
     """
     kind = type(mesh).__name__
     if kind != "MeshTri1":

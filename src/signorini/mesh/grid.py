@@ -86,6 +86,13 @@ class Grid(Lattice):
         -------
         horizontal, vertical, diagonal : ndarray
             Shapes (m + 1, nx), (m, nx + 1) and (m, nx).
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels)
+        >>> [part.shape for part in grid.split_edges(np.arange(9.0))]
+        [(2, 2), (1, 3), (1, 2)]
         """
         return self._edges.split(u, first, last)
 
@@ -100,6 +107,14 @@ class Grid(Lattice):
         Returns
         -------
         ndarray, shape (number_of_facets,)
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels)
+        >>> u = np.arange(9.0)
+        >>> np.array_equal(grid.join_edges(*grid.split_edges(u)), u)
+        True
         """
         return self._edges.join(horizontal, vertical, diagonal)
 
@@ -130,7 +145,16 @@ class Grid(Lattice):
         return np.stack([self.join_edges(*starts), self.join_edges(*ends)])
 
     def facet_ends(self, facets):
-        """End vertices of facets by number, the smaller first, shape (2, len(facets))."""
+        """End vertices of facets by number, the smaller first, shape (2, len(facets)).
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels)
+        >>> grid.facet_ends(grid.boundary_facets("contact"))
+        array([[0, 1],
+               [1, 2]])
+        """
         row, position = np.divmod(facets, self._edges.row_length)
         column, family = self._edges.columns_and_families[:, position]
         # Beyond the last row are the top side's horizontal edges, one after the other.
@@ -171,7 +195,16 @@ class Grid(Lattice):
         return Triangles(t, np.stack([legs[0], j * length + d[i], legs[1]]))
 
     def triangles_at(self, label):
-        """The triangles with a facet on the sides that carry `label`, each once, as `Triangles`."""
+        """The triangles with a facet on the sides that carry `label`, each once, as `Triangles`.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).triangles_at("contact").t
+        array([[0, 1],
+               [1, 2],
+               [3, 4]], dtype=int32)
+        """
         along = np.arange(self.nx, dtype=np.int32)
         up = np.arange(self.ny, dtype=np.int32) * self.nx
         second = self.nx * self.ny  # the number of the first of the second halves
@@ -186,13 +219,27 @@ class Grid(Lattice):
         return self.triangles(np.unique(numbers))
 
     def side_vertices(self, side):
-        """Vertex numbers along a side, by increasing coordinate."""
+        """Vertex numbers along a side, by increasing coordinate.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).side_vertices("top")
+        array([3, 4, 5], dtype=int32)
+        """
         along = np.arange(self.nx + 1, dtype=np.int32)
         up = np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1)
         return {"bottom": along, "top": up[-1] + along, "left": up, "right": up + self.nx}[side]
 
     def side_facets(self, side):
-        """Facet numbers along a side, by increasing coordinate."""
+        """Facet numbers along a side, by increasing coordinate.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).side_facets("bottom")
+        array([0, 2], dtype=int32)
+        """
         horizontal, vertical, _ = self._edges.positions
         rows = np.arange(self.ny + 1, dtype=np.int32) * self._edges.row_length
         return {
@@ -209,7 +256,14 @@ class Grid(Lattice):
         return tuple(side for side, name in zip(SIDES, self.labels, strict=True) if name == label)
 
     def boundary_vertices(self, label):
-        """Vertices on the closed sides that carry `label`, increasing, each once."""
+        """Vertices on the closed sides that carry `label`, increasing, each once.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).boundary_vertices("contact")
+        array([0, 1, 2], dtype=int32)
+        """
         numbers = [self.side_vertices(side) for side in self.sides(label)]
         return np.unique(np.concatenate(numbers)) if numbers else np.zeros(0, dtype=np.int32)
 
@@ -220,7 +274,15 @@ class Grid(Lattice):
 
     @cached_property
     def skfem(self):
-        """The same triangulation as a scikit-fem mesh, its boundaries named."""
+        """The same triangulation as a scikit-fem mesh, its boundaries named.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).skfem
+        >>> mesh.nelements, sorted(mesh.boundaries)
+        (4, ['contact', 'dirichlet', 'neumann'])
+        """
         from skfem import MeshTri
 
         names = {label: self.boundary_facets(label) for label in sorted(set(self.labels))}
@@ -231,7 +293,15 @@ class Grid(Lattice):
         return self == other
 
     def coarser(self):
-        """The grid of half as many cells along each side, or None where a count is odd."""
+        """The grid of half as many cells along each side, or None where a count is odd.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> coarse = Grid(4, 2, (0.0, 0.0), (2.0, 1.0), "falling", labels).coarser()
+        >>> coarse.nx, coarse.ny
+        (2, 1)
+        """
         if self.nx % 2 or self.ny % 2:
             return None
         return Grid(self.nx // 2, self.ny // 2, self.origin, self.size, self.diagonal, self.labels)

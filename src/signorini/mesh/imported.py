@@ -76,6 +76,12 @@ def import_mesh(path, limit=MAX_BYTES):
     The file is parsed in a process of its own. It may use 2 GiB of address space and 50 times the
     file's size, for 30 s and 2 s per MB; what is compressed may hold 64 MiB and 50 times the file's
     size.
+
+    Examples
+    --------
+    >>> mesh = import_mesh("config/meshes/gasket.msh")
+    >>> sorted(mesh.parts), sorted(mesh.regions)
+    (['1', '2', '3', 'clamped', 'foundation', 'free'], ['4', 'plate'])
     """
     path = Path(path)
     size = _regular_size(path)

@@ -73,7 +73,14 @@ class NamedMesh:
 
     @property
     def minimum_angle(self):
-        """Smallest angle of any triangle, degrees."""
+        """Smallest angle of any triangle, degrees.
+
+        Examples
+        --------
+        >>> from signorini.mesh.patterns import criss_cross
+        >>> float(criss_cross(2, 2, (0, 0), (1, 1)).minimum_angle)
+        45.0
+        """
         corners = [self.p[:, v] for v in self.t]
         smallest = np.inf
         for k in range(3):
@@ -90,6 +97,13 @@ def with_sides(mesh):
 
     Both ends of a facet must have the extreme coordinate, exactly: no tolerance, whatever the
     scale.
+
+    Examples
+    --------
+    >>> from signorini.mesh.patterns import criss_cross
+    >>> mesh = criss_cross(2, 1, (0, 0), (2, 1))
+    >>> sorted(with_sides(mesh).parts)
+    ['bottom', 'left', 'right', 'top']
     """
     ends = mesh.facets[:, mesh.boundary]
     (x0, y0), (x1, y1) = mesh.p.min(axis=1), mesh.p.max(axis=1)
@@ -164,6 +178,14 @@ def labelled(mesh, rules, rest=None, keep=()):
     Returns
     -------
     Triangulation
+
+    Examples
+    --------
+    >>> from signorini.mesh.patterns import criss_cross
+    >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+    >>> mesh = labelled(criss_cross(2, 1, (0, 0), (2, 1)), sides)
+    >>> mesh.number_of_triangles, mesh.boundary_facets("contact").size
+    (8, 2)
     """
     ends = labelled_ends(mesh, rules, rest)
     for name in keep:

@@ -44,6 +44,12 @@ class Lattice:
         Lower left corner and side lengths, in the user's unit of length.
     diagonal : {"falling", "rising"}
         From top left to bottom right (the line x + y = const), or from bottom left to top right.
+
+    Examples
+    --------
+    >>> lattice = Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling")
+    >>> lattice.number_of_vertices, lattice.number_of_triangles, lattice.spacing
+    (6, 4, (1.0, 1.0))
     """
 
     nx: int
@@ -100,7 +106,14 @@ class Lattice:
         return np.stack(np.meshgrid(self.x, self.y)).reshape(2, -1)
 
     def points(self, vertices):
-        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
+        """Coordinates of vertices given by their numbers, shape (2, len(vertices)).
+
+        Examples
+        --------
+        >>> Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling").points(np.array([2, 5]))
+        array([[2., 2.],
+               [0., 1.]])
+        """
         row, column = np.divmod(vertices, self.nx + 1)
         return np.stack([self.x[column], self.y[row]])
 
@@ -140,7 +153,16 @@ class Lattice:
         return rows[j : j + self.ny, i : i + self.nx]
 
     def corner_values(self, u):
-        """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
+        """Values of a vector over the vertices at the corners of each triangle, shape (3, nt).
+
+        Examples
+        --------
+        >>> lattice = Lattice(1, 1, (0.0, 0.0), (1.0, 1.0), "falling")
+        >>> lattice.corner_values(np.array([10.0, 11.0, 12.0, 13.0]))
+        array([[10., 13.],
+               [11., 12.],
+               [12., 11.]])
+        """
         rows = u.reshape(self.ny + 1, self.nx + 1)
         values = np.empty((3, 2, self.ny, self.nx), dtype=u.dtype)
         for half, corners in enumerate(self.corners):
@@ -160,6 +182,14 @@ class Lattice:
         -------
         ndarray, shape (3, 2, length of the slice)
             Unit of length.
+
+        Examples
+        --------
+        >>> lattice = Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling")
+        >>> lattice.edge_vectors(slice(0, 1))[:, :, 0]
+        array([[ 1.,  0.],
+               [-1.,  1.],
+               [ 0., -1.]])
         """
         corners = np.array(self.corners).transpose(1, 2, 0) * np.array(self.spacing)[:, None]
         numbers = np.arange(*cells.indices(self.number_of_triangles))
@@ -179,6 +209,14 @@ class Lattice:
         -------
         ndarray, shape (2, nt)
             Unit of the values per length.
+
+        Examples
+        --------
+        >>> lattice = Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling")
+        >>> x, y = lattice.p
+        >>> lattice.gradients(lattice.corner_values(3.0 * x - y))
+        array([[ 3.,  3.,  3.,  3.],
+               [-1., -1., -1., -1.]])
         """
         values = values.reshape(3, 2, -1)
         result = np.empty((2, *values.shape[1:]))

@@ -36,6 +36,12 @@ def alternating(nx, ny, origin, size, first="falling"):
     MeshError
         If a count is below 1, a size not positive, or the cells are below the resolution of the
         coordinates.
+
+    Examples
+    --------
+    >>> mesh = alternating(2, 2, (0, 0), (1, 1))
+    >>> mesh.t.shape, sorted(mesh.parts)
+    ((3, 8), ['bottom', 'left', 'right', 'top'])
     """
     if first not in CORNERS:
         raise MeshError(f"pattern: unknown diagonal {first!r}; known: {', '.join(CORNERS)}")
@@ -116,6 +122,12 @@ def perturbed(mesh, amount, seed):
     ------
     MeshError
         If the amount is out of range.
+
+    Examples
+    --------
+    >>> mesh = perturbed(alternating(4, 4, (0, 0), (1, 1)), 0.2, seed=1)
+    >>> bool(mesh.minimum_angle < 45.0)
+    True
     """
     if not 0 <= amount < 1:
         raise MeshError(f"perturbation: amount {amount} is not in [0, 1); use for instance 0.5")
@@ -167,6 +179,12 @@ def graded(mesh, towards, exponent):
     MeshError
         Not a rectangle; an unknown side, or opposite ones; an exponent below 1, or one that leaves
         triangles without area.
+
+    Examples
+    --------
+    >>> mesh = graded(alternating(2, 1, (0, 0), (1, 1)), "left", 2.0)
+    >>> mesh.p[0].tolist()
+    [0.0, 0.25, 1.0, 0.0, 0.25, 1.0]
     """
     towards = (towards,) if isinstance(towards, str) else tuple(towards)
     _check_grading(towards, exponent)

@@ -60,6 +60,12 @@ def triangulate(vertices, holes=(), size=1.0, names=None):
     ----------
     .. [1] J. Schoeberl, NETGEN: An advancing front 2D/3D-mesh generator based on abstract rules,
        Computing and Visualization in Science 1 (1997), 41-52.
+
+    Examples
+    --------
+    >>> mesh = triangulate([(0, 0), (1, 0), (1, 1), (0, 1)], size=0.5)
+    >>> sorted(mesh.parts)
+    ['side-0', 'side-1', 'side-2', 'side-3']
     """
     loops = [
         corner_array(loop, f"hole {k - 1}" if k else "polygon")

@@ -58,6 +58,12 @@ def area_inside(p, edges):
     -------
     float
         Unit of length squared.
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0]])
+    >>> area_inside(square, np.array([[0, 1, 2, 3], [1, 2, 3, 0]]))
+    1.0
     """
     return 0.5 * float(cross(p[:, edges[0]], p[:, edges[1]]).sum())
 
@@ -74,6 +80,12 @@ def side_lengths(p, sides):
     Returns
     -------
     ndarray, shape (n,)
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 2.0, 2.0, 0.0], [0.0, 0.0, 1.0, 1.0]])
+    >>> side_lengths(square, np.array([[0, 1, 2, 3], [1, 2, 3, 0]]))
+    array([2., 1., 2., 1.])
     """
     return np.hypot(*(p[:, sides[1]] - p[:, sides[0]]))
 

@@ -51,6 +51,12 @@ class Rectangle:
         ------
         MeshError
             If a side is not a whole number of cells.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> Rectangle((0.0, 0.0), (2.0, 1.0), "falling", "per-unit", sides).counts(4)
+        (8, 4)
         """
         return count_cells(self.size, self.cells, n)
 
@@ -74,6 +80,13 @@ class Rectangle:
         MeshError
             If a side is not a whole number of cells, or the level is beyond the coordinates'
             resolution or the memory.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> rectangle = Rectangle((0.0, 0.0), (2.0, 1.0), "falling", "per-unit", sides)
+        >>> rectangle.level(4).number_of_triangles
+        64
         """
         from signorini.mesh.resolution import check_resolution
 
@@ -106,5 +119,12 @@ class Rectangle:
         return labelled(mesh, boundary_rules(self.boundary))
 
     def mesh_size(self, n):
-        """The mesh width h of level n: 1/n, or the longer side of a cell; unit of length."""
+        """The mesh width h of level n: 1/n, or the longer side of a cell; unit of length.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> Rectangle((0.0, 0.0), (2.0, 1.0), "falling", "per-unit", sides).mesh_size(4)
+        0.25
+        """
         return 1.0 / n if self.cells == "per-unit" else max(self.size) / n

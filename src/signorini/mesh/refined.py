@@ -20,6 +20,15 @@ class Refined:
         The root's mesh width, unit of length.
     boundary : dict, optional
         Label -> formula; applied again on every level. Without it the root's labels are inherited.
+
+    Examples
+    --------
+    >>> from signorini.mesh.triangulation import Triangulation
+    >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+    >>> root = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+    >>> domain = Refined(root, coarsest=1, width=1.0)
+    >>> domain.level(4).number_of_triangles, domain.mesh_size(4)
+    (16, 0.25)
     """
 
     root: object

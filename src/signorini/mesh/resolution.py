@@ -30,6 +30,10 @@ def check_resolution(lower, upper, spacing, source="mesh"):
     MeshError
         If a cell spans fewer than 2**16 neighbouring floating-point numbers, or the box is not of a
         size in `EXTENTS`.
+
+    Examples
+    --------
+    >>> check_resolution([0.0, 0.0], [1.0, 1.0], [0.1, 0.1], "square")
     """
     extent = float(np.max(np.subtract(upper, lower)))
     # No extent at all, far from the origin, is a lack of resolution and is refused below.
@@ -76,7 +80,13 @@ def coincident(p, q, size):
 
 
 def first_equal_columns(table):
-    """Find two equal columns, the smaller number first, or None; `table` has shape (m, n)."""
+    """Find two equal columns, the smaller number first, or None; `table` has shape (m, n).
+
+    Examples
+    --------
+    >>> first_equal_columns(np.array([[1, 2, 1], [3, 4, 3]]))
+    (0, 2)
+    """
     order = np.lexsort(table)
     same = np.flatnonzero((np.diff(table[:, order], axis=1) == 0).all(axis=0))
     if not same.size:

@@ -17,6 +17,11 @@ def boundary_rules(boundary):
     Returns
     -------
     dict, or list of pairs (function of (x, y), label)
+
+    Examples
+    --------
+    >>> boundary_rules({"bottom": "contact", "top": "dirichlet"})
+    {'bottom': 'contact', 'top': 'dirichlet'}
     """
     if not by_formula(boundary):
         return boundary

@@ -125,7 +125,13 @@ def limit_memory(size):
 
 
 def one_line(error):
-    """The text of an exception on one line of bounded length."""
+    """The text of an exception on one line of bounded length.
+
+    Examples
+    --------
+    >>> one_line(ValueError("a text\\nof two lines"))
+    'a text of two lines'
+    """
     text = " ".join(str(error).split()) or type(error).__name__
     if len(text) <= _LONGEST_MESSAGE:
         return text

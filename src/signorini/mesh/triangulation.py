@@ -194,7 +194,15 @@ class Triangulation:
         return float((squares.max(axis=0) / (2.0 * self.areas(cells))).max())
 
     def boundary_facets(self, label):
-        """Facets that carry `label`, increasing."""
+        """Facets that carry `label`, increasing.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+        >>> mesh.boundary_facets("dirichlet")
+        array([1, 2], dtype=int32)
+        """
         ends = self.ends.get(label, np.zeros((2, 0), dtype=np.int32))
         # Only facets that start where a labelled one does are compared with those: a few of many.
         starts = np.zeros(self.number_of_vertices, dtype=bool)
@@ -211,7 +219,15 @@ class Triangulation:
 
     @cached_property
     def skfem(self):
-        """The same triangulation as a scikit-fem mesh, its boundaries named."""
+        """The same triangulation as a scikit-fem mesh, its boundaries named.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends).skfem
+        >>> mesh.nelements, sorted(mesh.boundaries)
+        (1, ['contact', 'dirichlet'])
+        """
         from skfem import MeshTri
 
         parts = [label for label in self.ends if label.startswith(PART)]
@@ -220,7 +236,15 @@ class Triangulation:
         return MeshTri(self.p, self.t, sort_t=False).with_boundaries(names)
 
     def same_as(self, other):
-        """Whether `other` is the same triangulation, numbered alike."""
+        """Whether `other` is the same triangulation, numbered alike.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+        >>> mesh.same_as(mesh.refined().coarser())
+        True
+        """
         return self is other or (
             np.array_equal(self.t, other.t) and np.array_equal(self.p, other.p)
         )
@@ -245,6 +269,15 @@ class Triangulation:
         -------
         ndarray, shape (2, nt)
             Unit of the values per length.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+        >>> x, y = mesh.p
+        >>> mesh.gradients(mesh.corner_values(3.0 * x - y))
+        array([[ 3.],
+               [-1.]])
         """
         a, b, c = (self.p[:, v] for v in self.t)
         ab, ac = b - a, c - a
@@ -254,7 +287,15 @@ class Triangulation:
         return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])
 
     def refined(self):
-        """Each triangle cut into four by the midpoints of its facets; the labels are inherited."""
+        """Each triangle cut into four by the midpoints of its facets; the labels are inherited.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> fine = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends).refined()
+        >>> fine.number_of_triangles, fine.area.tolist()
+        (4, [0.125, 0.125, 0.125, 0.125])
+        """
         return Triangulation(*refinement.refined_arrays(self), parent=self)
 
     def coarser(self):

@@ -13,7 +13,13 @@ PAPER = {name: values[0] for name, values in OPTIONS.items()}
 
 
 def count_solves(errors):
-    """Solves that the rows took, with one of a reference per diagonal and load."""
+    """Solves that the rows took, with one of a reference per diagonal and load.
+
+    Examples
+    --------
+    >>> count_solves([{"diagonal": "rising", "load": "exact", "element": "P1", "n": 2}])
+    2
+    """
     references = {(row["diagonal"], row["load"]) for row in errors}
     solved = {(row["diagonal"], row["load"], row["element"], row["n"]) for row in errors}
     return len(solved) + len(references)

@@ -93,6 +93,12 @@ def verdict(rows, source):
     ------
     SignoriniError
         If a row is not ok: naming each such cell and its distance.
+
+    Examples
+    --------
+    >>> check = [{"cell": "a", "units": "-0.68", "ok": "1"}]
+    >>> print(verdict(check, "check.csv"))
+    all 1 published numbers met, 0 of 1 errors to the last printed digit; largest distance ...
     """
     _refuse_missed(rows, source)
     summary = check_summary(rows)

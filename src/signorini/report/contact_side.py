@@ -25,6 +25,13 @@ def finest_lines(rows, elements):
     ------
     ValueError
         If there is no row.
+
+    Examples
+    --------
+    >>> row = dict.fromkeys(NUMBERS, "0.5") | {"element": "P1"}
+    >>> lines = finest_lines([row | {"n": "2"}, row | {"n": "4"}], ["P1"])
+    >>> lines["P1"]["n"], lines["P1"]["s"]
+    (4, array([0.5]))
     """
     if not rows:
         raise ValueError("contact line: no rows; there is nothing to draw without a contact part")

@@ -17,6 +17,12 @@ def longest_series(series):
     -------
     dict
         The same for the routes chosen, the first of several that are equally long.
+
+    Examples
+    --------
+    >>> rows = [{"n": 2}, {"n": 4}]
+    >>> longest_series({("paper", "P1", "direct"): rows[:1], ("paper", "P1", "fourier"): rows})
+    {('paper', 'P1', 'fourier'): [{'n': 2}, {'n': 4}]}
     """
     chosen = {}
     for (scene, element, method), rows in series.items():
@@ -40,6 +46,11 @@ def spread(rows, quantity):
     -------
     low, high : list of float
         Not negative, in the unit of the rows.
+
+    Examples
+    --------
+    >>> spread([{"total": 2.0, "total_min": 1.5, "total_max": 4.0}], "total")
+    ([0.5], [2.0])
     """
     low = [row[quantity] - row[f"{quantity}_min"] for row in rows]
     high = [row[f"{quantity}_max"] - row[quantity] for row in rows]
@@ -109,6 +120,11 @@ def round_off_of_widths(widths, exponent, factor):
     -------
     list of float
         Relative, dimensionless.
+
+    Examples
+    --------
+    >>> round_off_of_widths([0.5, 0.25], 2.0, 1.0) == [2.0**-50, 2.0**-48]
+    True
     """
     return [EPS * factor * h**-exponent for h in widths]
 

@@ -59,6 +59,11 @@ class Table:
         So many columns are words, aligned left; the others are numbers.
     sentences : bool, optional
         Whether the first column holds sentences, which LaTeX is to break into lines.
+
+    Examples
+    --------
+    >>> Table(("solver", "time"), [("BVLS", "3.0 s")], left=1).width
+    2
     """
 
     header: tuple
@@ -223,6 +228,11 @@ def latex_text(text, known=None):
     ------
     KeyError
         If the text refers to a name that is not known.
+
+    Examples
+    --------
+    >>> print(latex_text("1e-9 of *all*, `a_b`"))
+    $10^{-9}$ of \\emph{all}, \\texttt{a\\_b}
     """
     parts = _VERBATIM.split(text)
     parts[::2] = map(_latex_words, parts[::2])
@@ -267,6 +277,11 @@ def markdown_text(text, known=None):
     ------
     KeyError
         If the text refers to a name that is not known.
+
+    Examples
+    --------
+    >>> markdown_text("see @error", {"error": Block("figure", "The caption.", "error", number=1)})
+    'see Figure 1'
     """
     parts = _VERBATIM.split(text)
     for k, part in enumerate(parts):

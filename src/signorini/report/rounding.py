@@ -71,5 +71,11 @@ def column(values, decimals):
 
 
 def is_missing(value):
-    """Whether a cell of a CSV file holds no number."""
+    """Whether a cell of a CSV file holds no number.
+
+    Examples
+    --------
+    >>> is_missing(""), is_missing(None), is_missing("0")
+    (True, True, False)
+    """
     return value in (None, "")

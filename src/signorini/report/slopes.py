@@ -16,6 +16,12 @@ def slopes_by_series(rates, kind):
     -------
     dict
         (norm, element) -> slope as it stands in the row, dimensionless.
+
+    Examples
+    --------
+    >>> rates = [{"element": "CR", "norm": "l2", "kind": "mean", "slope": "1.98"}]
+    >>> slopes_by_series(rates, "mean")
+    {('l2', 'CR'): '1.98'}
     """
     return {(row["norm"], row["element"]): row["slope"] for row in rates if row["kind"] == kind}
 

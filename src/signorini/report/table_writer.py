@@ -11,7 +11,13 @@ _NUMBER = re.compile(r"([-\d.]+)(?:e([-+]\d+))?(\D*)")
 
 @dataclass(frozen=True)
 class Title:
-    """A title of a column or of a group of columns, in both notations."""
+    """A title of a column or of a group of columns, in both notations.
+
+    Examples
+    --------
+    >>> Title("$L^2$ error", "L2").latex
+    '$L^2$ error'
+    """
 
     latex: str
     markdown: str
@@ -59,6 +65,23 @@ def latex(table):
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> energy = Title("$E$", "energy")
+    >>> table = Table(Title("$N$", "N"), [energy], ["CF"], [["2", "0.5"]], [["slope", "1.0"]], [])
+    >>> print(latex(table), end="")
+    \\begin{tabular}{rr}
+    \\toprule
+     & \\multicolumn{1}{c}{$E$} \\\\
+    \\cmidrule(lr){2-2}
+    $N$ & \\multicolumn{1}{c}{CF} \\\\
+    \\midrule
+    2 & 0.5 \\\\
+    \\midrule
+    slope & 1.0 \\\\
+    \\bottomrule
+    \\end{tabular}
     """
     lines = [
         rf"\begin{{tabular}}{{{'r' * table.width}}}",

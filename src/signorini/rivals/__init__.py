@@ -116,7 +116,13 @@ class Rival:
     adapter: str
 
     def available(self):
-        """Whether the package can be imported."""
+        """Whether the package can be imported.
+
+        Examples
+        --------
+        >>> RIVALS["bvls"].available()
+        True
+        """
         return importlib.util.find_spec(self.package) is not None
 
     def solve(self, problem, tolerance=1e-9, time_limit=TIME_LIMIT):

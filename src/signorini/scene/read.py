@@ -18,7 +18,13 @@ _RESERVED = ("meshes", "studies", "quick")
 
 @cache
 def scene_schema():
-    """The JSON schema of a scene, a dict."""
+    """The JSON schema of a scene, a dict.
+
+    Examples
+    --------
+    >>> scene_schema()["properties"]["elements"]["items"]
+    {'enum': ['P1', 'CR']}
+    """
     return load_yaml(Path(__file__).with_name("schema.yaml"))
 
 
@@ -37,6 +43,12 @@ def load_scene(path):
     ------
     SceneError, FormulaError, MeshError
         One line that names the file, the field, the value and the remedy.
+
+    Examples
+    --------
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> scene.elements, scene.levels[:3], scene.truth["kind"]
+    (['P1', 'CR'], [2, 4, 8], 'reference')
     """
     scene = read_scene(path)
     scene.check()
@@ -59,6 +71,11 @@ def read_scene(path):
     ------
     SceneError, FormulaError, MeshError
         As `load_scene`.
+
+    Examples
+    --------
+    >>> read_scene("config/scenes/paper.yaml").name
+    'paper'
     """
     path = Path(path)
     check_name(path.stem)

@@ -112,7 +112,14 @@ class Scene:
             self.problem_statement.check()
 
     def section(self, *keys):
-        """The parts of the document with the names `keys`, as a new dict."""
+        """The parts of the document with the names `keys`, as a new dict.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/paper.yaml").section("elements", "norms")
+        {'elements': ['P1', 'CR'], 'norms': ['l2', 'h1']}
+        """
         return {key: self.document[key] for key in keys}
 
     @property

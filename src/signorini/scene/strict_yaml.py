@@ -101,6 +101,11 @@ def load_yaml(path):
     ------
     SceneError
         Naming the file, the line and the remedy.
+
+    Examples
+    --------
+    >>> sorted(load_yaml("config/config.yaml"))
+    ['scenes']
     """
     text = _read(path)
     try:

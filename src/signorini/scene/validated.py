@@ -19,6 +19,15 @@ def write_validated(path, scene):
     ----------
     path : str or Path
     scene : Scene
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from signorini.scene.read import load_scene
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_validated(f"{folder}/scene.json", load_scene("config/scenes/paper.yaml"))
+    ...     read_validated(f"{folder}/scene.json").name
+    'paper'
     """
     write_json(path, _values(scene))
 

@@ -16,6 +16,15 @@ def write_npz(path, kind, **arrays):
         What the arrays are; an entry of that name says it.
     **arrays
         ndarray, number or text, by the name of the entry.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_npz(f"{folder}/u.npz", "numbers", u=np.arange(3))
+    ...     read_npz(f"{folder}/u.npz", "numbers")["u"]
+    array([0, 1, 2])
     """
     import numpy as np
 

@@ -139,6 +139,14 @@ def write_text(path, text):
     ----------
     path : path-like
     text : str
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_text(f"{folder}/new/note.txt", "whole or not at all")
+    ...     sorted(path.name for path in Path(folder, "new").iterdir())
+    ['.note.txt.sha256', 'note.txt']
     """
     with sealing(path, encoding="utf-8", newline="\n") as stream:
         stream.write(text)
@@ -152,6 +160,14 @@ def write_json(path, value):
     path : path-like
     value : object
         Lists, dicts, text and numbers.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_json(f"{folder}/values.json", {"n": [2, 4]})
+    ...     read_json(f"{folder}/values.json")
+    {'n': [2, 4]}
     """
     write_text(path, json.dumps(value, indent=1) + "\n")
 

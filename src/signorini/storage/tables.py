@@ -17,6 +17,14 @@ def write_csv(path, rows):
     path : path-like
     rows : list of dict
         At least one, all with the same keys; None becomes an empty field.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_csv(f"{folder}/errors.csv", [{"element": "P1", "n": 2, "l2": 0.1}])
+    ...     read_csv(f"{folder}/errors.csv", numbers=["l2"])
+    [{'element': 'P1', 'n': '2', 'l2': 0.1}]
     """
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
@@ -65,6 +73,15 @@ def read_table(path, numbers=()):
     ------
     StorageError
         If the file is missing or cut off.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "mine.csv").write_text("n,l2\\n2,0.1\\n")
+    ...     read_table(f"{folder}/mine.csv", numbers=["l2"])
+    [{'n': '2', 'l2': 0.1}]
     """
     return _parsed(path, read_bytes(path), numbers, {})
 

@@ -23,6 +23,11 @@ def describe(packages=OURS):
         ``processor``, ``cores``, ``memory`` (GB), ``system``, ``python``, ``blas``, ``threads`` (of
         a measured process), ``load`` (average of the last minute), ``date``, and ``versions`` of
         the packages that are installed.
+
+    Examples
+    --------
+    >>> sorted(describe(["numpy", "no-such-package"])["versions"])
+    ['numpy']
     """
     import numpy as np
 

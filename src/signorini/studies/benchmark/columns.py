@@ -7,7 +7,13 @@ SERIES = ("scene", "element", "method")
 
 
 def with_range(name):
-    """A measured column and those of its least and largest value."""
+    """A measured column and those of its least and largest value.
+
+    Examples
+    --------
+    >>> with_range("seconds")
+    ('seconds', 'seconds_min', 'seconds_max')
+    """
     return name, f"{name}_min", f"{name}_max"
 
 
@@ -41,7 +47,15 @@ WHOLE = ("n", "dofs", "repeats", "memory", "peak", "iterations", *COUNTS, "claim
 
 
 def series(points):
-    """(scene, element, method) -> its measured points, coarsest first."""
+    """(scene, element, method) -> its measured points, coarsest first.
+
+    Examples
+    --------
+    >>> point = {"scene": "paper", "element": "P1", "method": "direct", "status": "measured"}
+    >>> found = series([point | {"n": 4}, point | {"n": 2}, point | {"n": 8, "status": "skipped"}])
+    >>> [row["n"] for row in found["paper", "P1", "direct"]]
+    [2, 4]
+    """
     found = {}
     for row in points:
         if row["status"] == "measured":

@@ -164,6 +164,11 @@ def difference(u, other):
     -------
     float
         Dimensionless.
+
+    Examples
+    --------
+    >>> difference(np.array([1.0, 2.0]), np.array([1.0, 1.0]))
+    0.5
     """
     return float(np.max(np.abs(u - other)) / (np.max(np.abs(u)) or 1.0))
 

@@ -113,6 +113,14 @@ def better(rows):
         Cost -> (element, how many times more the other one pays). For ``total`` the element is None
         where the ranges of the measured times overlap; ``memory`` is absent below what can be told.
         Empty unless there are two, both between levels.
+
+    Examples
+    --------
+    >>> row = {"status": "between levels", "dofs": 100.0, "memory": 1e6}
+    >>> fast = row | {"total": 1.0, "total_min": 0.9, "total_max": 1.1}
+    >>> slow = row | {"total": 3.0, "total_min": 2.9, "total_max": 3.1}
+    >>> better({"P1": slow, "CR": fast})["total"]
+    ('CR', 3.0)
     """
     if [row["status"] for row in rows.values()] != ["between levels"] * 2:
         return {}
@@ -137,6 +145,14 @@ def growth(points):
         ``scene``, ``element``, ``method``, ``quantity`` ("total" or "memory"), ``exponent``, and
         the levels it was fitted to, ``first`` to ``last``. Series of fewer than three levels have
         none.
+
+    Examples
+    --------
+    >>> key = {"scene": "paper", "element": "P1", "method": "direct", "status": "measured"}
+    >>> costs = [{"n": n, "dofs": n**2, "total": n**2 * 1e-6, "memory": n**3} for n in (8, 16, 32)]
+    >>> points = [key | row for row in costs]
+    >>> [(row["quantity"], round(row["exponent"], 6)) for row in growth(points)]
+    [('total', 1.0), ('memory', 1.5)]
     """
     rows = []
     for key, found in series(points).items():
@@ -164,6 +180,13 @@ def reference_bias(coarse, fine):
     -------
     list of dict
         ``scene``, ``element``, ``n``, ``norm``, the errors ``coarse`` and ``fine``, ``change``.
+
+    Examples
+    --------
+    >>> rows = [{"element": "P1", "n": 2, "l2": 0.1, "h1": None}]
+    >>> finer = [{"element": "P1", "n": 2, "l2": 0.125, "h1": None}]
+    >>> round(reference_bias({"paper": rows}, {"paper": finer})[0]["change"], 12)
+    -0.2
     """
     if not coarse:
         return []
@@ -193,6 +216,12 @@ def comparisons(rivals):
         ``rival``, ``ours``, ``problems``, the rival's ``wins``, ``even`` (the ratios' range holds
         1) and ``losses``, and ``ratio``, ``ratio_min``, ``ratio_max``: geometric mean, least and
         largest of its time over ours.
+
+    Examples
+    --------
+    >>> rival = {"rival": "bvls", "ours": "direct", "status": "solved"}
+    >>> comparisons([rival | {"ratio": 2.0, "ratio_min": 1.5, "ratio_max": 2.5}])[0]["losses"]
+    1
     """
     frame = pd.DataFrame(rivals)
     frame = frame[frame["ratio"].notna() & (frame["status"] != "failed")]
@@ -214,6 +243,12 @@ def verdicts(rivals):
 
     ``wrong`` are those it claims to have solved although the residual says "failed"; they are among
     the failed.
+
+    Examples
+    --------
+    >>> row = {"rival": "bvls", "scene": "paper", "element": "P1", "n": 4, "status": "failed"}
+    >>> verdicts([row | {"claimed": 1}])["bvls"]["wrong"]
+    1
     """
     frame = pd.DataFrame(rivals)
     frame = frame.drop_duplicates(["rival", "scene", "element", "n"], keep="last")

@@ -134,7 +134,13 @@ def _conclusion(series, rates):
 
 
 def smaller(ratio):
-    """Which element has the smaller error when CR's is `ratio` times that of P1, or a tie."""
+    """Which element has the smaller error when CR's is `ratio` times that of P1, or a tie.
+
+    Examples
+    --------
+    >>> smaller(0.9), smaller(1.0), smaller(1.1)
+    ('CR', 'tie', 'P1')
+    """
     if abs(ratio - 1.0) < _ROUND_OFF:
         return TIE
     return "CR" if ratio < 1.0 else "P1"
@@ -147,7 +153,13 @@ def ratios(errors):
 
 
 def where(rows, **options):
-    """The rows with these options."""
+    """The rows with these options.
+
+    Examples
+    --------
+    >>> where([{"load": "exact", "h1": "full"}, {"load": "nodal", "h1": "full"}], load="nodal")
+    [{'load': 'nodal', 'h1': 'full'}]
+    """
     return [row for row in rows if all(row[name] == value for name, value in options.items())]
 
 

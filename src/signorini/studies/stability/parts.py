@@ -68,7 +68,13 @@ def errors_of(floor):
 
 
 def records(rows):
-    """A frame as a list of dict, None where it is not a number."""
+    """A frame as a list of dict, None where it is not a number.
+
+    Examples
+    --------
+    >>> records(frame([{"element": "P1", "error": ""}]))
+    [{'element': 'P1', 'error': None}]
+    """
     return rows.astype(object).where(rows.notna(), None).to_dict("records")
 
 
@@ -122,7 +128,13 @@ def titles(rows):
 
 
 def title(solver):
-    """The name of a solver in figures and tables."""
+    """The name of a solver in figures and tables.
+
+    Examples
+    --------
+    >>> title("ours"), title("ours/direct"), title("bvls")
+    ('signorini', 'signorini direct', 'SciPy BVLS, condensed')
+    """
     if solver.startswith("ours"):
         return f"signorini {solver[5:]}".strip()
     return RIVALS[solver].title

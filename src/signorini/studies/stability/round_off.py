@@ -57,6 +57,11 @@ def conditions(levels):
     -------
     list of dict
         ``element``, ``n``, ``condition``, ``largest`` and ``smallest`` eigenvalue.
+
+    Examples
+    --------
+    >>> [round(row["condition"], 2) for row in conditions([2])]
+    [20.15, 74.44]
     """
     return [
         {"element": element, "n": n}

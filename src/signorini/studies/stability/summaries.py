@@ -40,7 +40,13 @@ def solvers(rows, time_limit):
 
 
 def in_order(names):
-    """Names of solvers without repetition, ours first."""
+    """Names of solvers without repetition, ours first.
+
+    Examples
+    --------
+    >>> in_order(["bvls", "ours", "ours/direct"])
+    ['ours', 'ours/direct', 'bvls']
+    """
     return sorted(dict.fromkeys(names), key=lambda name: not name.startswith("ours"))
 
 

@@ -56,6 +56,13 @@ def accurate(rows):
     Returns
     -------
     pandas.Series of bool
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> rows = pd.DataFrame({"error": [1e-12, 1e-3], "multiplier_error": [1e-12, 1e-12]})
+    >>> accurate(rows).tolist()
+    [True, False]
     """
     return (rows["error"] <= ERROR) & (rows["multiplier_error"] <= ERROR)
 

@@ -1,7 +1,5 @@
 """Truths as scenes describe them, the data derived from them, and the check of given data."""
 
-import doctest
-import importlib
 import subprocess
 import sys
 from dataclasses import replace
@@ -185,10 +183,3 @@ def test_what_solves_no_signorini_problem_is_refused(case):
     data = replace(derived_data(exact), obstacle=Formula(obstacle))
     with pytest.raises(SceneError, match=message):
         check_data(exact, data, Samples.of(grid()))
-
-
-@pytest.mark.parametrize("module", ["check", "data", "diffused", "families", "samples", "solution"])
-def test_the_examples_of_the_docstrings_run(module):
-    failed, tried = doctest.testmod(importlib.import_module(f"signorini.exact.{module}"))
-    assert tried > 0
-    assert failed == 0

@@ -1,7 +1,5 @@
 """Constraints from above are mirror images of those from below, to the bit."""
 
-import doctest
-
 import numpy as np
 import pytest
 
@@ -148,7 +146,3 @@ def test_a_loose_body_needs_a_load_towards_its_obstacle(side):
     assert solved(f=-sign).active.any()
     with pytest.raises(SolverError, match=r"int f \+ int g \+ int contact_flux"):
         solved(f=-sign, contact_flux=2 * sign)
-
-
-def test_the_examples():
-    assert doctest.testmod(mirror).failed == 0

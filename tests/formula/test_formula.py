@@ -1,7 +1,5 @@
 """Formulas: what is refused and how, values against plain numpy."""
 
-import doctest
-import importlib
 import math
 import os
 import pickle
@@ -471,12 +469,3 @@ def test_reading_does_not_import_numpy():
     subprocess.run(
         [sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": str(source)}
     )
-
-
-@pytest.mark.parametrize(
-    "module", ["", ".evaluation", ".expressions", ".grammar", ".lexicon", ".taylor", ".values"]
-)
-def test_examples_of_the_documentation(module):
-    outcome = doctest.testmod(importlib.import_module(f"signorini.formula{module}"))
-    assert outcome.attempted
-    assert not outcome.failed

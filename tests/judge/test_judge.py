@@ -2,9 +2,7 @@
 rational numbers.
 """
 
-import doctest
 from fractions import Fraction
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +14,7 @@ from signorini.fem.elements import ELEMENTS, find_element
 from signorini.fem.problem import discretize, discretize_on
 from signorini.generated.bodies import BOUNDARIES, pressed_flat
 from signorini.generated.problems import instance
-from signorini.judge import EPS, couplings, elimination, judge, judgement, search
+from signorini.judge import EPS, judge
 from signorini.judge.couplings import extended_stiffness
 from signorini.judge.elimination import Elimination
 from signorini.mesh.grid import SIDES
@@ -217,14 +215,6 @@ def test_what_double_precision_cannot_is_told_from_what_it_can():
     )
     graded = judge(small("P1", ["bottom"]))
     assert max(graded.limit, graded.multiplier_limit(graded.active)) < 1e-12
-
-
-@extended_only
-@pytest.mark.parametrize("module", [couplings, elimination, judgement, search])
-def test_the_examples_run(module, monkeypatch):
-    monkeypatch.chdir(Path(__file__).parents[2])
-    failed, tried = doctest.testmod(module)
-    assert tried > failed == 0
 
 
 def test_elimination_is_that_of_the_matrix():

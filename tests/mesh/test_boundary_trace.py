@@ -1,13 +1,10 @@
 """The trace of a mesh on its boundary."""
 
-import doctest
-
 import numpy as np
 import pytest
 from skfem import MeshTri
 
 from builders import grid, labelled
-from signorini.mesh import boundary_trace
 from signorini.mesh.boundary_trace import find_boundary_trace
 
 
@@ -65,9 +62,3 @@ def test_a_label_that_no_facet_has_leaves_an_empty_trace():
     trace = find_boundary_trace(grid(2, labels=("contact", "dirichlet") * 2), "neumann")
     assert trace.facets.size == trace.length.size == 0
     assert trace.evenly_spaced(np.zeros(0, dtype=int))[0].shape == (2, 0)
-
-
-def test_the_examples_of_the_docstrings_run():
-    failed, tried = doctest.testmod(boundary_trace)
-    assert tried > 0
-    assert failed == 0

@@ -1,6 +1,5 @@
 """Pages: one template, two layouts."""
 
-import doctest
 from pathlib import Path
 
 import jinja2
@@ -147,10 +146,6 @@ def test_numbers_in_latex(plain, typeset):
 )
 def test_quantities_have_two_digits(function, value, text):
     assert function(value) == text
-
-
-def test_the_examples_run():
-    assert doctest.testmod(document).failed == 0
 
 
 def test_the_templates_are_part_of_the_package():

@@ -1,6 +1,5 @@
 """The condensed contact solver: complementarity, finiteness, invariance, refusals."""
 
-import doctest
 import subprocess
 import sys
 
@@ -396,7 +395,3 @@ def test_any_problem_satisfies_complementarity(data, n, ridge):
 def test_importing_the_solver_does_not_import_scipy():
     code = "import sys, signorini.solvers.contact; sys.exit('scipy' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": ":".join(sys.path)})
-
-
-def test_example():
-    assert doctest.testmod(contact).failed == 0

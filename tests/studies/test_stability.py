@@ -1,6 +1,5 @@
 """The stability suite measures what it says: statuses, digits, success rates, claims."""
 
-import doctest
 import time
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +13,6 @@ from signorini.errors.reference import ReferenceErrors
 from signorini.exceptions import SignoriniError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize
-from signorini.generated import problems as generated_problems
 from signorini.generated.bodies import FAMILIES
 from signorini.generated.numbering import renumber
 from signorini.generated.problems import LOADS, instance
@@ -24,7 +22,7 @@ from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
 from signorini.solvers import METHODS, solve
 from signorini.studies.stability import digits as variants
-from signorini.studies.stability import parts, summaries
+from signorini.studies.stability import summaries
 from signorini.studies.stability.claims import claims
 from signorini.studies.stability.parts import (
     digits_by_cell,
@@ -428,12 +426,6 @@ def test_a_floor_of_zero_has_neither_growth_nor_crossing():
         assert (row["floor"], row["floor_order"], row["h"]) == (0.0, None, None)
     flat = frame([{"element": "P1", "error": 0.0, "aspect": 1e-2}])
     assert summaries.growth(flat, "error", by="aspect") == {}
-
-
-@pytest.mark.parametrize("module", [parts, generated_problems])
-def test_the_examples_run(module):
-    failed, tried = doctest.testmod(module)
-    assert tried > failed == 0
 
 
 def test_the_settings_are_valid_and_name_every_family():

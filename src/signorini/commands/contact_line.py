@@ -21,7 +21,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Tabulate and write."""
+    """Tabulate and write.
+
+    Raises
+    ------
+    SceneError
+        If nothing is in contact.
+    """
     domain = read_domain(arguments.mesh)
     rows = []
     for path in arguments.solutions:

@@ -35,7 +35,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Measure, and write or show the table."""
+    """Measure, and write or show the table.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no truth to compare with.
+    """
     scene = scene_of(arguments.scene)
     if scene.truth["kind"] == "none":
         raise SceneError(f"{scene.source}: truth.kind is none: there is nothing to compare with")

@@ -21,7 +21,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Compare; what is off is an error that lists it."""
+    """Compare; what is off is an error that lists it.
+
+    Raises
+    ------
+    SignoriniError
+        If the scene expects nothing, or its slopes are not given; or listing what is not met.
+    """
     scene = scene_of(arguments.scene)
     expected = scene.document.get("expect")
     if expected is None:

@@ -22,7 +22,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Draw the sheet."""
+    """Draw the sheet.
+
+    Raises
+    ------
+    SceneError
+        If there are not as many fields as scenes.
+    """
     if len(arguments.scenes) != len(arguments.fields):
         raise SceneError("--fields: give as many fields as scenes, in the same order")
     scenes = [scene_of(path) for path in arguments.scenes]

@@ -30,7 +30,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Write the file; one that is there already is left alone."""
+    """Write the file; one that is there already is left alone.
+
+    Raises
+    ------
+    SceneError, StorageError
+        If the file is there already, or its folder is not.
+    """
     check_name(arguments.name)
     path = Path(arguments.folder, f"{arguments.name}.yaml")
     if path.exists():

@@ -19,7 +19,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Read every scene of the folder; one that is not valid is told with its mistake."""
+    """Read every scene of the folder; one that is not valid is told with its mistake.
+
+    Raises
+    ------
+    SceneError
+        If there is no scene in the folder.
+    """
     paths = sorted(arguments.folder.glob("*.yaml"))
     if not paths:
         raise SceneError(f"{arguments.folder}: no scene there; name a folder that has .yaml files")

@@ -20,7 +20,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Read the file, its digest included, and describe it."""
+    """Read the file, its digest included, and describe it.
+
+    Raises
+    ------
+    StorageError
+        If it is not a whole result file.
+    """
     reader = {".npz": _arrays, ".csv": _table}.get(arguments.file.suffix)
     if reader is None:
         raise StorageError(f"{arguments.file}: neither .npz nor .csv; name a result file")

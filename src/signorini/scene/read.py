@@ -83,7 +83,13 @@ def read_scene(path):
 
 
 def scene_of_mapping(mapping, name, folder):
-    """`Scene.from_dict`."""
+    """See `Scene.from_dict`.
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        As `load_scene`.
+    """
     if not isinstance(mapping, dict):
         raise SceneError(
             f"{name}: a {type(mapping).__name__} is no mapping; give the sections of a scene"

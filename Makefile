@@ -13,7 +13,7 @@ help:
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format and style of Python and Snakemake files'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
-	@echo 'make studies       run the three studies, up to an hour, and keep what they measured in docs/studies'
+	@echo 'make studies       run the four studies, up to an hour, and keep what they measured in docs/studies'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
 	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
@@ -36,7 +36,7 @@ readme: paper
 	.venv/bin/python docs/update_readme.py
 
 studies: .venv/ready
-	$(run) snakemake --cores $(CORES) sensitivity benchmark stability
+	$(run) snakemake --cores $(CORES) sensitivity theory benchmark stability
 	.venv/bin/python docs/keep_studies.py
 
 requirements:

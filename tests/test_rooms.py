@@ -11,7 +11,7 @@ FLOORS = (
     *("exceptions", "wording", "work", "chunks", "memory", "storage"),
     *("formula", "mesh", "fem", "exact", "solvers", "errors", "scene"),
     *("judge", "generated", "rivals", "open_choices", "report", "figures"),
-    *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability"),
+    *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability", "studies.theory"),
     *("commands", "__main__"),
 )
 

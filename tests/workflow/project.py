@@ -47,7 +47,7 @@ def name():
     if "signorini" not in words:
         return "snakemake" if "snakemake" in words else Path(sys.argv[0]).name
     words = words[words.index("signorini") + 1:]
-    count = 2 if words[:1] in (["benchmark"], ["sensitivity"], ["stability"]) else 1
+    count = 2 if words[:1] in (["benchmark"], ["sensitivity"], ["stability"], ["theory"]) else 1
     return " ".join(words[:count])
 
 def tell():

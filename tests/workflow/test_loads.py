@@ -1,7 +1,7 @@
 """What a job can load is among its inputs, so that an edit of any of it starts the job again.
 
 What jobs do load is watched by the tests that build: `test_jobs`, `test_benchmark_run`,
-`test_sensitivity_jobs`, `test_stability_suite`.
+`test_sensitivity_jobs`, `test_stability_suite`, `test_theory_jobs`.
 """
 
 import ast
@@ -23,7 +23,7 @@ def declared(tmp_path_factory):
     project = Project.fresh(tmp_path_factory.mktemp("loads") / "project")
     project.ask_for("paper", "small")
     files = ["results/paper/paper.pdf", "results/paper/vtu/P1.vtu", "results/smooth/expect.txt"]
-    targets = [*files, "all", "all_scenes", "benchmark", "sensitivity", "stability"]
+    targets = [*files, "all", "all_scenes", "benchmark", "sensitivity", "stability", "theory"]
     return inputs_of_commands(
         project.build(*targets, "--dry-run", "--forceall", "--quiet", "host").text
     )

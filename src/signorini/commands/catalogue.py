@@ -55,6 +55,12 @@ CATALOGUE = {
         "sensitivity figures": "draw its figures",
         "sensitivity report": "write its page",
     },
+    "The theory study": {
+        "theory estimates": "measure both sides of the paper's estimates on a scene",
+        "theory traces": "compute the sharp constants of trace inequalities",
+        "theory figures": "draw its figures",
+        "theory report": "write its page",
+    },
     "The stability suite": {
         "stability success": "solve generated problems and judge the answers",
         "stability digits": "compute a table in other ways that are equally right",

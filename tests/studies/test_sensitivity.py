@@ -2,7 +2,6 @@
 and what it costs.
 """
 
-import csv
 import re
 from functools import cache
 from pathlib import Path
@@ -19,6 +18,7 @@ from signorini.open_choices.options import (
     RULES,
     count_solves,
 )
+from signorini.publication.published import read_published
 from signorini.storage import write_csv
 from signorini.studies.sensitivity import combinations as study
 from signorini.studies.sensitivity.errors import errors_of_diagonal
@@ -26,7 +26,7 @@ from signorini.studies.sensitivity.page import page
 
 ROOT = Path(__file__).parents[2]
 SCENE = load_scene(ROOT / "config/scenes/paper.yaml")
-PUBLISHED = list(csv.DictReader((ROOT / "config/published/table_5_1.csv").read_text().splitlines()))
+PUBLISHED = list(read_published(ROOT / "config/published/table_5_1.csv").values())
 COARSE = (2, 4, 8, 16)
 
 
@@ -83,9 +83,9 @@ def test_another_diagonal_misses_by_far_more_than_the_reference_can_change(diago
         for row in study.where(quick(), diagonal=diagonal, load=load, n=2, rule="exact")
     }
     printed = {
-        row["element"]: float(row["value"])
-        for row in PUBLISHED
-        if row["norm"] == "l2" and row["n"] == "2"
+        number.element: float(number.value)
+        for number in PUBLISHED
+        if (number.quantity, number.n) == ("l2", "2")
     }
     assert max(abs(l2[element] - printed[element]) for element in printed) > 0.004
 

@@ -133,7 +133,7 @@ class Project:
 
     def ask_for(self, *scenes):
         """Set config.yaml to these scenes."""
-        self.write("config/config.yaml", f"scenes: {json.dumps(scenes)}\n")
+        self.write("config/config.yaml", f"scenes: {json.dumps(scenes)}\nstudied: paper\n")
 
     def start(self, *arguments, cores="2", limits=None, **environment):
         """Start Snakemake on two cores, or without saying on how many."""

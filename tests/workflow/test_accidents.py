@@ -213,7 +213,7 @@ def stamp(path, clock):
     [
         (
             "src/signorini/errors/rates.py",
-            {"rates": 1, "check": 1, "verify": 1, "table_5_1": 1, "figures_5_2_and_5_3": 1},
+            {"rates": 1, "check": 1, "verify": 1, "named_table": 1, "named_convergence_paper": 1},
         ),
         ("config/published/table_5_1.csv", {"check": 1, "verify": 1}),
     ],
@@ -224,7 +224,7 @@ def test_an_edit_with_a_wrong_time_stamp_starts_its_jobs(paper, path, jobs, cloc
     text = (paper / path).read_text(encoding="utf-8")
     paper.write(
         path,
-        text + "# a comment\n" if path.endswith(".py") else text.replace(",0.01,", ",0.010,", 1),
+        text + "# a comment\n" if path.endswith(".py") else text.replace(",1\n", ",1.0\n", 1),
     )
     stamp(paper / path, clock)
     found = paper.jobs()
@@ -348,7 +348,7 @@ def test_a_full_disk_leaves_no_part_of_a_file(fresh):
 def test_without_latex_all_else_is_built_and_one_line_says_what_to_install(
     paper, built_paper, tmp_path
 ):
-    for name in ("table_5_1.tex", "figure_5_2.png", "check.txt", "paper.pdf"):
+    for name in ("table_5_1.tex", "figure_5_2.png", "check.txt", "macros.tex", "paper.pdf"):
         (paper / "results/paper" / name).unlink(missing_ok=True)
     tools = tmp_path / "tools"
     tools.mkdir()

@@ -49,7 +49,8 @@ TRIED = {
         f"{command} --dry-run" if SLURM else "true"
     ),
     r"signorini new (.*)": lambda command: (
-        f"rm -f config/scenes/{command.split()[-1]}.yaml; PYTHONPATH=src python3 -m {command}"
+        f"rm -f config/scenes/{command.split()[2]}.yaml paper/{command.split()[2]}.tex;"
+        f" PYTHONPATH=src python3 -m {command}"
     ),
     r"signorini .*": lambda command: f"PYTHONPATH=src python3 -m {command}",
     r"snakemake --unlock": str,

@@ -12,7 +12,7 @@ from project import FILES, LATEX, Project, rooms_of, undeclared
 
 from signorini.commands.program import main
 from signorini.generated.bodies import FAMILIES
-from signorini.report.typeset import typeset
+from signorini.publication.typeset import typeset
 from signorini.storage import write_json
 
 FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")

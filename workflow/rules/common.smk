@@ -62,6 +62,8 @@ def check_config():
     document = validated(load_yaml(CONFIG_FILE), schema, CONFIG_FILE)
     for key, value in config.items():
         document[key] = validated({key: truth_value(value)}, schema, where_asked(key))[key]
+    if "scenes" not in document:
+        raise SignoriniError(f"{CONFIG_FILE}: scenes: missing; name the scenes to build")
     return document
 
 

@@ -2,6 +2,7 @@
 
 from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
+from signorini.publication.check import check_publication
 from signorini.scene.read import check_name, read_scene
 from signorini.scene.validated import keep_validated
 from signorini.wording import listed
@@ -13,6 +14,7 @@ def scene(name):
     asked = written(name)
     if asked.problem_statement.needs_mesh:
         check_once(asked)
+    check_publication(asked)
     return asked
 
 
@@ -214,3 +216,27 @@ def shown(wildcards):
 def figure_options(wildcards):
     """Options of the figures for what `shown` lists."""
     return " ".join(f"--{name} {quote(value)}" for name, value in shown(wildcards).items())
+
+
+def studied():
+    """The scene whose table the studies compute in other ways."""
+    if "studied" not in CONFIG:
+        sys.exit(f"error: {CONFIG_FILE}: studied: missing; name a scene with published numbers")
+    return CONFIG["studied"]
+
+
+def studied_scene(wildcards):
+    return validated_file(studied())
+
+
+def of_studied(*keys):
+    """A parameter: parts of the scene that is studied."""
+    return lambda wildcards: as_json(scene(studied()).section(*keys))
+
+
+def studied_statement(wildcards):
+    return statement_of(studied())
+
+
+def studied_published(wildcards):
+    return [publication_file(studied(), "published")]

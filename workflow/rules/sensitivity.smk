@@ -9,7 +9,7 @@ SENSITIVITY = f"{STUDIES}/sensitivity"
 rule sensitivity_errors:
     input:
         library("sensitivity errors", diagonal=DIAGONALS),
-        scene=ancient(paper_scene),
+        scene=ancient(studied_scene),
     output:
         f"{SENSITIVITY}/errors/{{diagonal}}.csv",
     log:
@@ -21,8 +21,8 @@ rule sensitivity_errors:
     priority: lambda wildcards: DIAGONALS.index(wildcards.diagonal)
     params:
         content=content("sensitivity errors"),
-        statement=lambda wildcards: statement_of("paper"),
-        asked=of_paper("levels", "truth"),
+        statement=studied_statement,
+        asked=of_studied("levels", "truth"),
         quick=QUICK_OPTION,
     shell:
         "python3 -m signorini sensitivity errors {input.scene:q} --diagonal {wildcards.diagonal}"
@@ -32,17 +32,17 @@ rule sensitivity_errors:
 rule sensitivity_combinations:
     input:
         library("sensitivity combinations"),
-        scene=ancient(paper_scene),
+        scene=ancient(studied_scene),
         errors=expand(f"{SENSITIVITY}/errors/{{diagonal}}.csv", diagonal=DIAGONALS),
-        published=PUBLISHED,
+        published=studied_published,
     output:
         combinations=f"{SENSITIVITY}/sensitivity.csv",
         ratios=f"{SENSITIVITY}/sensitivity_ratios.csv",
     log:
         f"{SENSITIVITY}/logs/combinations.log",
     params:
-        content=content("sensitivity combinations", PUBLISHED),
-        asked=of_paper("levels"),
+        content=content("sensitivity combinations", studied_published),
+        asked=of_studied("levels"),
         quick=QUICK_OPTION,
         folder=subpath(output[0], parent=True),
     shell:
@@ -73,17 +73,17 @@ rule sensitivity:
         library("sensitivity report"),
         rules.sensitivity_combinations.output,
         rules.figure_sensitivity.output,
-        scene=ancient(paper_scene),
+        scene=ancient(studied_scene),
         errors=rules.sensitivity_combinations.input.errors,
-        published=PUBLISHED,
+        published=studied_published,
     output:
         tex=f"{SENSITIVITY}/sensitivity.tex",
         markdown=f"{SENSITIVITY}/sensitivity.md",
     log:
         f"{SENSITIVITY}/logs/page.log",
     params:
-        content=content("sensitivity report", PUBLISHED),
-        asked=of_paper("levels", "truth"),
+        content=content("sensitivity report", studied_published),
+        asked=of_studied("levels", "truth"),
         quick=QUICK_OPTION,
         folder=subpath(output[0], parent=True),
     shell:

@@ -38,7 +38,7 @@ rule stability_success:
 rule stability_digits:
     input:
         library("stability digits", variant=lambda: suite()["digits"]),
-        scene=ancient(paper_scene),
+        scene=ancient(studied_scene),
     output:
         f"{STABILITY}/digits/{{variant}}.csv",
     log:
@@ -47,8 +47,8 @@ rule stability_digits:
         variant=NAME,
     params:
         content=content("stability digits"),
-        statement=lambda wildcards: statement_of("paper"),
-        asked=of_paper("elements", "levels", "truth", "norms"),
+        statement=studied_statement,
+        asked=of_studied("elements", "levels", "truth", "norms"),
         quick=QUICK_OPTION,
         name=lambda wildcards: digits_setting(wildcards, "variant", wildcards.variant),
         samples=lambda wildcards: digits_setting(wildcards, "samples", 1),

@@ -1,31 +1,41 @@
 """Compare errors and slopes with published numbers: a row for each; `signorini verify` judges them.
 
 example:
-  signorini compare config/scenes/paper.yaml config/published/table_5_1.csv errors.csv rates.csv
+  signorini compare config/scenes/paper.yaml config/published/table_5_1.csv
 """
+
+from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
-from signorini.report.compare import compare
-from signorini.report.result_files import read_errors, read_rates
-from signorini.storage import read_table, write_csv
+from signorini.publication.compare import compare
+from signorini.publication.keys import declared_keys, table_of
+from signorini.publication.numbers import read_numbers
+from signorini.publication.published import read_published
+from signorini.storage import write_csv
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
     parser.add_argument("published", metavar="PUBLISHED", help="published numbers, .csv")
-    parser.add_argument("errors", metavar="ERRORS", help="errors.csv of `signorini errors`")
-    parser.add_argument("rates", metavar="RATES", help="rates.csv of `signorini rates`")
+    parser.add_argument(
+        "--results",
+        type=Path,
+        metavar="FOLDER",
+        help="of the scene's results; default: results/NAME",
+    )
     add_output(parser, "the comparison, check.csv", required=False)
 
 
 def run(arguments):
     """Compare, and write the rows where asked to."""
-    asked = scene_of(arguments.scene).section("elements", "levels", "norms")
-    errors = read_errors(arguments.errors, asked)
-    rates = read_rates(arguments.rates, asked)
-    rows = compare(read_table(arguments.published), errors, rates)
+    scene = scene_of(arguments.scene)
+    published = list(read_published(arguments.published).values())
+    declared = declared_keys(scene.document)
+    tables = dict.fromkeys(table_of(number.key, declared) for number in published)
+    folder = arguments.results or Path("results", scene.name)
+    rows = compare(published, read_numbers(scene, folder, filter(None, tables)))
     if arguments.output:
         write_csv(arguments.output, rows)
     met = sum(row["ok"] for row in rows)

@@ -1,15 +1,17 @@
-"""Draw errors against mesh width in L2 and in H1, in the format of each output's ending.
+"""Draw errors against mesh width, a figure for each norm, in the format of each output's ending.
 
 example:
-  signorini draw-convergence config/scenes/paper.yaml errors.csv rates.csv --l2 a.pdf --h1 b.pdf
+  signorini draw-convergence config/scenes/paper.yaml errors.csv rates.csv --figure l2 a.pdf a.png
 """
 
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_drawings, add_scene, scene_of
+from signorini.commands.inputs import add_scene, scene_of
+from signorini.exceptions import SignoriniError
 from signorini.figures.convergence import draw_convergence
 from signorini.figures.style import save_figure
 from signorini.report.result_files import read_errors, read_rates
 from signorini.report.slopes import slopes_of
+from signorini.wording import nearest
 
 
 def add_arguments(parser):
@@ -17,18 +19,28 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("errors", metavar="ERRORS", help="errors.csv of `signorini errors`")
     parser.add_argument("rates", metavar="RATES", help="rates.csv of `signorini rates`")
-    add_drawings(parser, "--l2")
-    add_drawings(parser, "--h1")
+    parser.add_argument(
+        "--figure",
+        nargs="+",
+        action="append",
+        required=True,
+        metavar=("NORM", "FILE"),
+        help="a norm, and where to draw it, .pdf and .png; may be repeated",
+    )
 
 
 def run(arguments):
-    """Draw both figures."""
+    """Draw every figure."""
     scene = scene_of(arguments.scene)
     asked = scene.section("elements", "levels", "norms")
     errors = read_errors(arguments.errors, asked)
     rates = read_rates(arguments.rates, asked, numbers=("slope",))
-    for norm, paths in (("l2", arguments.l2), ("h1", arguments.h1)):
+    for norm, *paths in arguments.figure:
+        if norm not in asked["norms"]:
+            raise SignoriniError(
+                f"--figure {norm}: not among norms; {nearest(norm, asked['norms'])}"
+            )
         figure = draw_convergence(errors, norm, slopes_of(rates, norm, scene.document["slope"]))
         for path in paths:
             save_figure(figure, path)
-    return Outcome("figures: l2, h1")
+    return Outcome(f"figures: {', '.join(norm for norm, *_ in arguments.figure)}")

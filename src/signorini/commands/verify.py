@@ -6,7 +6,7 @@ example:
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
-from signorini.report.compare import verdict
+from signorini.publication.compare import verdict
 from signorini.storage import read_csv, write_text
 
 

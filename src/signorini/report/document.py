@@ -34,8 +34,8 @@ from pathlib import Path
 import jinja2
 
 from signorini.report import quantities
-from signorini.report.macros import ESCAPES
 from signorini.report.rounding import percent
+from signorini.report.table_writer import ESCAPES
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 # Characters of plain text that LaTeX reserves or lacks.
 TEX = {"†": r"$^\dagger$", "‡": r"$^\ddagger$", "§": r"$^\S$", "%": r"\%"}
+# All characters that LaTeX reserves.
+ESCAPES = {c: f"\\{c}" for c in "&%$#_{}"} | {"\\": r"\textbackslash{}", "~": r"\~{}", "^": r"\^{}"}
 # Mantissa or dash, exponent, marks.
 _NUMBER = re.compile(r"([-\d.]+)(?:e([-+]\d+))?(\D*)")
 

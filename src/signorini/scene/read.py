@@ -8,6 +8,7 @@ from pathlib import Path
 from signorini.errors.rates import reference_note
 from signorini.exceptions import SceneError
 from signorini.scene.checks import check_critical_points, check_document
+from signorini.scene.publication import check_names, with_paths
 from signorini.scene.scene import Scene, naming
 from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
@@ -123,6 +124,9 @@ def _validated_scene(written, name, path):
             document["data"] = dict.fromkeys(("g", "dirichlet", "obstacle"), 0) | document["data"]
         if document["domain"]["kind"] == "mesh":
             document["domain"]["file"] = _mesh_file(document["domain"]["file"], path)
+        if "publication" in document:
+            check_names(document)
+            document["publication"] = with_paths(document["publication"], path)
         note = reference_note(document["truth"], document["levels"], document["elements"])
         scene = Scene(name, document, path, note)
         check_critical_points(document, scene.problem_statement.exact)

@@ -8,7 +8,8 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import scene_of
 from signorini.commands.sensitivity.options import add_comparison, levels_of, reference_of
-from signorini.storage import read_table, write_text
+from signorini.publication.published import read_published
+from signorini.storage import write_text
 from signorini.studies.sensitivity.combinations import combinations, read_errors
 from signorini.studies.sensitivity.page import page
 
@@ -22,7 +23,7 @@ def run(arguments):
     """Write sensitivity.tex and sensitivity.md."""
     scene, quick = scene_of(arguments.scene), arguments.quick
     errors = read_errors(arguments.errors, levels_of(scene, quick))
-    rows = combinations(errors, read_table(arguments.published))
+    rows = combinations(errors, list(read_published(arguments.published).values()))
     shown = (rows, errors, reference_of(scene, quick), quick)
     write_text(arguments.output / "sensitivity.tex", page("latex", *shown))
     write_text(arguments.output / "sensitivity.md", page("markdown", *shown))

@@ -15,7 +15,8 @@ from signorini.open_choices.options import (
     RULES,
     SLOPES,
 )
-from signorini.report.compare import compare
+from signorini.publication.compare import compare
+from signorini.publication.keys import SLOPE, key_of
 from signorini.storage import read_csv
 
 TIE = "tie"
@@ -49,8 +50,8 @@ def combinations(errors, published):
     ----------
     errors : sequence of mapping
         Rows of `errors_of_diagonal`, their norms as numbers, for both elements.
-    published : sequence of mapping
-        As for `compare.compare`; of the errors those of the levels in `errors` are compared, and
+    published : sequence of Published
+        Of the errors those of the levels in `errors` are compared, and
         the slopes where these are all the levels of the table.
 
     Returns
@@ -80,10 +81,10 @@ def combinations(errors, published):
 
 def _comparable(published, levels):
     """The published errors of these levels, and the slopes where these are all the levels."""
-    errors = [row for row in published if row["quantity"] == "error"]
-    others = [row for row in published if row["quantity"] != "error"]
-    whole = {int(row["n"]) for row in errors} == set(levels)
-    return [row for row in errors if int(row["n"]) in levels] + others * whole
+    errors = [number for number in published if not number.is_slope]
+    others = [number for number in published if number.is_slope]
+    whole = {int(number.n) for number in errors} == set(levels)
+    return [number for number in errors if int(number.n) in levels] + others * whole
 
 
 def _wide(errors):
@@ -97,17 +98,14 @@ def _wide(errors):
 
 def _agreement(printed, levels, series, rates):
     """How well the published numbers are met; `rates` are slopes by norm and element."""
-    error_rows = [
-        {"element": e, "n": str(n), "l2": repr(series["l2", e][k]), "h1": repr(series["h1", e][k])}
-        for e in ELEMENT_NAMES
-        for k, n in enumerate(levels)
-    ]
-    rate_rows = [
-        {"element": e, "norm": norm, "kind": "mean", "slope": repr(slope)}
-        for (norm, e), slope in rates.items()
-    ]
-    compared = compare(printed, error_rows, rate_rows)
-    count = sum(number["quantity"] == "error" for number in printed)  # which come first
+    numbers = {
+        key_of(norm, element, n): repr(value)
+        for (norm, element), values in series.items()
+        for n, value in zip(levels, values, strict=True)
+    }
+    numbers |= {key_of(SLOPE, *pair): repr(slope) for pair, slope in rates.items()}
+    compared = compare(printed, numbers)
+    count = sum(not number.is_slope for number in printed)  # which come first
     errors, others = compared[:count], compared[count:]
     misses = [abs(float(row["computed"]) / float(row["published"]) - 1.0) for row in errors]
     worst = misses.index(max(misses))

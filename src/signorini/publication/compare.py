@@ -8,16 +8,14 @@ from signorini.exceptions import SignoriniError
 EXACT = Decimal("0.5")  # units of the last printed digit: up to here all printed digits agree
 
 
-def compare(published, errors, rates):
+def compare(published, numbers):
     """Compare every published number with the computed one.
 
     Parameters
     ----------
-    published : sequence of mapping
-        Rows with cell, quantity (error or slope), norm, element, n, value as printed, unit of the
-        last printed digit, and tolerance in those units, all text.
-    errors, rates : sequence of mapping
-        Rows of errors.csv and rates.csv, all text.
+    published : iterable of Published
+    numbers : mapping
+        Key -> computed number as text, as `numbers.read_numbers` returns it.
 
     Returns
     -------
@@ -32,46 +30,27 @@ def compare(published, errors, rates):
 
     Examples
     --------
-    >>> published = {"cell": "l2 P1 n=2", "quantity": "error", "norm": "l2", "element": "P1"}
-    >>> published |= {"n": "2", "value": "0.101", "unit": "0.001", "tolerance": "1"}
-    >>> errors = [{"element": "P1", "n": "2", "l2": "0.1014", "h1": ""}]
-    >>> compare([published], errors, [])[0]["units"]
+    >>> from signorini.publication.published import Published
+    >>> compare([Published("l2", "P1", "2", "0.101", "1")], {"l2, P1, 2": "0.1014"})[0]["units"]
     '0.400'
     """
-    computed = _errors_by_key(errors) | _slopes_by_key(rates)
-    return [_row(number, computed) for number in published]
+    return [_row(number, numbers) for number in published]
 
 
-def _errors_by_key(errors):
-    return {
-        ("error", norm, row["element"], row["n"]): row[norm]
-        for row in errors
-        for norm in ("l2", "h1")
-    }
-
-
-def _slopes_by_key(rates):
-    return {
-        ("slope", row["norm"], row["element"], ""): row["slope"]
-        for row in rates
-        if row["kind"] == "mean"
-    }
-
-
-def _row(number, computed):
-    key = (number["quantity"], number["norm"], number["element"], number["n"])
-    if not computed.get(key):
+def _row(number, numbers):
+    computed = numbers.get(number.key)
+    if not computed:
         raise SignoriniError(
-            f"check: {number['cell']} was not computed; "
+            f"check: {number.cell} was not computed; "
             "restore levels, elements and norms of the scene"
         )
-    units = (Decimal(computed[key]) - Decimal(number["value"])) / Decimal(number["unit"])
+    units = (Decimal(computed) - Decimal(number.value)) / number.unit
     return {
-        "cell": number["cell"],
-        "published": number["value"],
-        "computed": computed[key],
+        "cell": number.cell,
+        "published": number.value,
+        "computed": computed,
         "units": f"{units:.3f}",
-        "ok": int(abs(units) <= Decimal(number["tolerance"])),
+        "ok": int(abs(units) <= Decimal(number.tolerance)),
     }
 
 
@@ -102,12 +81,12 @@ def verdict(rows, source):
     """
     _refuse_missed(rows, source)
     summary = check_summary(rows)
-    errors = [row for row in rows if not row["cell"].endswith("slope")]
+    errors = [row for row in rows if "slope" not in row["cell"].split()]
+    exact = f"{_count_exact(errors)} of {len(errors)} errors to the last printed digit"
     worst = max(rows, key=_distance)
     return (
-        f"all {summary.total} published numbers met, {_count_exact(errors)} of {len(errors)} "
-        f"errors to the last printed digit; largest distance {worst['units']} units of the "
-        f"last digit ({worst['cell']})"
+        f"all {summary.total} published numbers met{f', {exact}' if errors else ''}; "
+        f"largest distance {worst['units']} units of the last digit ({worst['cell']})"
     )
 
 

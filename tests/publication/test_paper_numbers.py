@@ -1,6 +1,5 @@
 """Table 5.1 of the paper: all 24 numbers and 4 slopes, and that every option it omits matters."""
 
-import csv
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -12,11 +11,13 @@ from signorini import discretize, load_scene, solve
 from signorini.errors.rates import slopes
 from signorini.errors.reference import ReferenceErrors
 from signorini.fem.elements import ELEMENTS
-from signorini.report.compare import compare
+from signorini.publication.compare import compare
+from signorini.publication.keys import key_of
+from signorini.publication.published import read_published
 
 ROOT = Path(__file__).parents[2]
 SCENE = load_scene(ROOT / "config/scenes/paper.yaml")
-PUBLISHED = list(csv.DictReader((ROOT / "config/published/table_5_1.csv").read_text().splitlines()))
+PUBLISHED = list(read_published(ROOT / "config/published/table_5_1.csv").values())
 LEVELS, NORMS = SCENE.levels, ("l2", "h1")
 
 
@@ -63,19 +64,21 @@ def table(statement=PAPER, quadrature="exact"):
 def checked(statement=PAPER, quadrature="exact", norm="h1", slope="mean"):
     """The published numbers against a table computed in another way."""
     found = table(statement, quadrature)
-    errors = [
-        {"element": element, "n": str(n), "l2": repr(row["l2"]), "h1": repr(row[norm])}
+    columns = {"l2": "l2", "h1": norm}
+    numbers = {
+        key_of(name, element, n): repr(row[column])
         for (element, n), row in found.items()
-    ]
-    rates = []
+        for name, column in columns.items()
+    }
     for element in ELEMENTS:
-        for name, key in (("l2", "l2"), ("h1", norm)):
-            value = slopes([1 / n for n in LEVELS], [found[element, n][key] for n in LEVELS])[slope]
-            rates.append({"element": element, "norm": name, "kind": "mean", "slope": repr(value)})
-    return compare(PUBLISHED, errors, rates)
+        for name, column in columns.items():
+            errors = [found[element, n][column] for n in LEVELS]
+            value = slopes([1 / n for n in LEVELS], errors)[slope]
+            numbers[key_of("slope", name, element)] = repr(value)
+    return compare(PUBLISHED, numbers)
 
 
-@pytest.mark.parametrize("k", range(len(PUBLISHED)), ids=[row["cell"] for row in PUBLISHED])
+@pytest.mark.parametrize("k", range(len(PUBLISHED)), ids=[number.cell for number in PUBLISHED])
 def test_every_published_number_is_met(k):
     """Within one unit of the last printed digit."""
     row = checked()[k]

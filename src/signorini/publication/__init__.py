@@ -1,0 +1,1 @@
+"""From results to an article: published numbers, numbers by key, macros, and LaTeX."""

@@ -1,0 +1,189 @@
+r"""A manuscript: the files that it is made of, and the numbers that it asks for by ``\result``.
+
+It is read as text, line by line; comments do not count. What is put together by macros, as in
+``\result{l2, CR, #1}``, is left to LaTeX.
+"""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from signorini.exceptions import SceneError
+from signorini.publication.keys import tidy
+from signorini.storage.files import read_bytes
+
+MACROS = "macros.tex"
+_COMMENT = re.compile(r"(?<!\\)((?:\\\\)*)%.*")
+_VERBATIM = re.compile(r"\\begin\{(verbatim|lstlisting)\}.*?\\end\{\1\}", re.S)
+_RESULT = re.compile(r"\\result(?![A-Za-z])\s*(?:\[([^]]*)\]\s*)?\{([^{}]*)\}")
+_TAKES = re.compile(
+    r"\\(input|include|includegraphics|bibliography|addbibresource|bibliographystyle|usepackage"
+    r"|RequirePackage|documentclass|lstinputlisting|verbatiminput)(?![A-Za-z])\*?\s*"
+    r"(?:\[[^]]*\]\s*)?\{([^{}]+)\}"
+)
+# Command -> endings that it adds to a name without one.
+_ENDINGS = {
+    "input": (".tex",),
+    "include": (".tex",),
+    "includegraphics": (".pdf", ".png", ".jpg", ".jpeg"),
+    "bibliography": (".bib",),
+    "bibliographystyle": (".bst",),
+    "usepackage": (".sty",),
+    "RequirePackage": (".sty",),
+    "documentclass": (".cls",),
+}
+# Files that only the manuscript's folder or the scene can have, not the distribution of TeX.
+_OWN = ("input", "include", "includegraphics", "bibliography", "addbibresource")
+
+
+@dataclass(frozen=True)
+class Use:
+    r"""A ``\result`` in a manuscript.
+
+    Parameters
+    ----------
+    place : str
+        File and line.
+    key : str
+        As `keys.tidy` returns it.
+    options : str
+        What stands in brackets.
+    """
+
+    place: str
+    key: str
+    options: str = ""
+
+    @property
+    def is_open(self):
+        """Whether the key is only known when LaTeX runs."""
+        return any(sign in self.key for sign in "#\\")
+
+    @property
+    def stem(self):
+        """What is known of an open key: the words before the first that is open."""
+        words = self.key.split(", ")
+        first = next(k for k, word in enumerate(words) if set("#\\") & set(word))
+        return ", ".join(words[:first])
+
+
+@dataclass(frozen=True)
+class Taken:
+    """A file that a manuscript names.
+
+    Parameters
+    ----------
+    place : str
+        File and line.
+    command : str
+        Of LaTeX, without backslash.
+    name : str
+        As it stands there.
+    """
+
+    place: str
+    command: str
+    name: str
+
+    def found_in(self, names):
+        """The first of the names that LaTeX would take, or None."""
+        endings = ("", *_ENDINGS.get(self.command, ()))
+        return next((self.name + end for end in endings if self.name + end in names), None)
+
+    @property
+    def is_own(self):
+        """Whether the distribution of TeX has hardly such a file."""
+        return self.command in _OWN
+
+
+@dataclass(frozen=True)
+class Manuscript:
+    """A manuscript, read.
+
+    Parameters
+    ----------
+    path : Path
+    files : tuple of Path
+        Its own, from its folder: itself first, then what it takes in.
+    uses : tuple of Use
+    others : tuple of Taken
+        What it takes in and its folder does not have.
+    taken : tuple of Taken
+        All that it takes in.
+    """
+
+    path: Path
+    files: tuple
+    uses: tuple
+    others: tuple = field(default=())
+    taken: tuple = field(default=())
+
+
+def read_manuscript(path):
+    """Read a manuscript and the files of its folder that it takes in.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Manuscript
+
+    Raises
+    ------
+    SceneError, StorageError
+        Naming the file that cannot be read.
+    """
+    path = Path(path)
+    folder, files, uses, taken, others = path.parent, [path], [], [], []
+    waiting = [path]
+    while waiting:
+        file = waiting.pop(0)
+        text = _plain_text(file)
+        uses += _uses(file, text)
+        for entry in _takes(file, text):
+            taken.append(entry)
+            own = _own_file(folder, entry)
+            if own is None:
+                others.append(entry)
+            elif own not in files:
+                files.append(own)
+                waiting += [own] if own.suffix == ".tex" else []
+    return Manuscript(path, tuple(files), tuple(uses), tuple(others), tuple(taken))
+
+
+def _plain_text(path):
+    """The text without comments and listings, its lines kept."""
+    try:
+        text = read_bytes(path).decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise SceneError(
+            f"{path}: not UTF-8 text ({error.reason} at byte {error.start}); save it as UTF-8"
+        ) from None
+    text = _COMMENT.sub(r"\1", text)
+    return _VERBATIM.sub(lambda found: "\n" * found[0].count("\n"), text)
+
+
+def _place(path, text, found):
+    return f"{path}:{text.count(chr(10), 0, found.start()) + 1}"
+
+
+def _uses(path, text):
+    for found in _RESULT.finditer(text):
+        yield Use(_place(path, text, found), tidy(found[2]), (found[1] or "").strip())
+
+
+def _takes(path, text):
+    """The files that a text names; those whose name a macro puts together are not known."""
+    for found in _TAKES.finditer(text):
+        for name in map(str.strip, found[2].split(",")):
+            if name and not set("#\\") & set(name):
+                yield Taken(_place(path, text, found), found[1], name)
+
+
+def _own_file(folder, entry):
+    """The file of the manuscript's folder that LaTeX takes, or None."""
+    endings = ("", *_ENDINGS.get(entry.command, ()))
+    candidates = (folder / f"{entry.name}{ending}" for ending in endings)
+    return next((file for file in candidates if file.is_file()), None)

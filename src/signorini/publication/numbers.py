@@ -1,0 +1,185 @@
+"""The numbers of a scene's results by key, as the text that stands in their tables."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+from signorini.publication.compare import check_summary
+from signorini.publication.keys import (
+    CHOICES,
+    COARSEST,
+    DEVIATION,
+    EFFECT,
+    FACTS,
+    FILES,
+    FINEST,
+    LINE,
+    PUBLISHED,
+    RATE,
+    SLOPE,
+    computed_norms,
+    key_of,
+)
+from signorini.publication.published import read_published
+from signorini.report.result_files import read_errors, read_rates
+from signorini.storage import read_csv, read_npz
+
+
+def read_numbers(scene, folder, tables):
+    """The numbers of some tables.
+
+    Parameters
+    ----------
+    scene : Scene
+    folder : str or Path
+        Of its results.
+    tables : iterable of str
+        Of `keys.FILES`.
+
+    Returns
+    -------
+    dict
+        Key -> text: a number, or ``inf``. What a table leaves empty has no key.
+
+    Raises
+    ------
+    StorageError
+        If a table is missing, altered, or lacks a row.
+    """
+    found = {}
+    for table in tables:
+        found |= _READERS[table](scene, Path(folder, FILES[table]))
+    return {key: str(value) for key, value in found.items() if value not in (None, "")}
+
+
+def _of_scene(scene, _):
+    levels, truth = scene.levels, scene.truth
+    found = {"level, coarsest": levels[0], "level, finest": levels[-1], "level, count": len(levels)}
+    return found | ({"reference, n": truth["n"]} if truth["kind"] == "reference" else {})
+
+
+def _of_errors(scene, path):
+    rows = read_errors(path, scene.section("elements", "levels"))
+    return error_numbers(rows, computed_norms(scene.document))
+
+
+def error_numbers(rows, norms):
+    """Errors, what is known of their solves, and the rate from the level before.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Of errors.csv, by increasing level.
+    norms : sequence of str
+
+    Returns
+    -------
+    dict
+        Key -> value as it stands in the row; a rate is log(e'/e) / log(h'/h), dimensionless.
+    """
+    found = {}
+    for element in dict.fromkeys(row["element"] for row in rows):
+        own = [row for row in rows if row["element"] == element]
+        named = {row["n"]: row for row in own} | {COARSEST: own[0], FINEST: own[-1]}
+        for n, row in named.items():
+            found |= {key_of(name, element, n): row.get(name) for name in (*norms, *FACTS)}
+        steps = {fine["n"]: (coarse, fine) for coarse, fine in pairwise(own)}
+        for n, step in (steps | ({FINEST: steps[own[-1]["n"]]} if steps else {})).items():
+            found |= {key_of(RATE, norm, element, n): rate_between(*step, norm) for norm in norms}
+    return found
+
+
+def rate_between(coarse, fine, norm):
+    """The slope of an error between two levels.
+
+    Parameters
+    ----------
+    coarse, fine : mapping
+        Rows of errors.csv.
+    norm : str
+
+    Returns
+    -------
+    float or None
+        Dimensionless; None where an error is missing, zero or infinite.
+    """
+    errors = [float(row[norm] or "nan") for row in (coarse, fine)]
+    if not all(0.0 < error < math.inf for error in errors):
+        return None
+    return math.log(errors[0] / errors[1]) / math.log(float(coarse["h"]) / float(fine["h"]))
+
+
+def _of_rates(scene, path):
+    rows = read_rates(path, scene.section("elements", "norms"))
+    return slope_numbers(rows, scene.document["slope"])
+
+
+def slope_numbers(rows, kind):
+    """Slopes of every kind, and those of the scene's kind without saying which."""
+    found = {}
+    for row in rows:
+        key = key_of(SLOPE, row["norm"], row["element"])
+        found[key_of(key, row["kind"])] = row["slope"]
+        if row["kind"] == kind:
+            found[key] = row["slope"]
+    return found
+
+
+def _of_line(scene, path):
+    found = {}
+    rows = read_csv(path)
+    for element in scene.elements:
+        own = [row for row in rows if row["element"] == element]
+        for number, row in enumerate(own, start=1):
+            found |= {key_of("contact", name, element, number): row[name] for name in LINE}
+        critical = [row["critical"] for row in own if row["critical"]]
+        found[key_of("critical", element, "count")] = len(critical)
+        for number, place in enumerate(critical, start=1):
+            found[key_of("critical", element, number)] = place
+    return found
+
+
+def _of_check(scene, path):
+    published = read_published(scene.document["publication"]["published"])
+    rows = read_csv(path, every={"cell": [number.cell for number in published.values()]})
+    summary = check_summary(rows)
+    counts = {"total": summary.total, "matched": summary.matched, "exact": summary.exact}
+    found = {key_of("check", name): count for name, count in counts.items()}
+    found["check, largest"] = summary.largest
+    by_cell = {row["cell"]: row for row in rows}
+    for number in published.values():
+        found[key_of(PUBLISHED, number.key)] = number.value
+        found[key_of(DEVIATION, number.key)] = by_cell[number.cell]["units"]
+    return found
+
+
+def _of_effects(_, path):
+    rows = read_csv(path, every={"choice": CHOICES})
+    return {key_of(EFFECT, row["choice"]): row["change"] for row in rows}
+
+
+def _of_surface(_, path):
+    surface = read_npz(path, kind="surface")
+    u, obstacle = surface["contact_u"], surface["contact_obstacle"]
+    free = [k for k in range(len(u)) if u[k] > obstacle[k]]
+    found = {
+        "surface, cells": len(surface["x"]) - 1,
+        "surface, corner": float(surface["u"][0][0]),
+        "surface, contact_cells": len(surface["contact_x"]) - 1,
+        "surface, last_free": free[-1] if free else None,
+    }
+    for number, (x, y) in enumerate(surface["critical_points"], start=1):
+        found[f"surface, critical_x, {number}"] = float(x)
+        found[f"surface, critical_y, {number}"] = float(y)
+    return found
+
+
+_READERS = {
+    "scene": _of_scene,
+    "errors": _of_errors,
+    "rates": _of_rates,
+    "contact_line": _of_line,
+    "check": _of_check,
+    "effects": _of_effects,
+    "surface": _of_surface,
+}

@@ -1,0 +1,138 @@
+"""LaTeX: from a source and the generated files that it inputs to a clean PDF."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from signorini.exceptions import SignoriniError
+from signorini.storage import replacing
+from signorini.wording import cut
+
+_ERROR = re.compile(r"^(?:\./)?([^\s:]+\.\w+):(\d+): (.*)$", re.M)  # of -file-line-error
+_FATAL = re.compile(r"^! (.*)$", re.M)
+_WARNING = re.compile(
+    r"^(?:.*Overfull .*|.*undefined.*|.*multiply defined.*|.*Font shape .* not available.*)$", re.M
+)
+_LINE = re.compile(r"(?:on input line|at lines?) (\d+)(?:--\d+)?\.?")
+_PAGES = re.compile(r"Output written on .*?\((\d+) pages?")
+_ENVIRONMENT = {
+    # A fixed date makes the same input the same PDF.
+    "SOURCE_DATE_EPOCH": "1167609600",
+    "FORCE_SOURCE_DATE": "1",
+    # TeX breaks the lines of its log elsewhere, in the middle of words.
+    "max_print_line": "1000",
+}
+_OPTIONS = ("-norc", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "-file-line-error")
+_LATEXMK = ("latexmk", *_OPTIONS, "-silent")
+
+
+def typeset(source, parts, output, own=()):
+    """Run latexmk on a source.
+
+    Parameters
+    ----------
+    source : str or Path
+        The main .tex file.
+    parts : sequence of str or Path
+        Generated files, and folders of such files, that it takes in by name.
+    output : str or Path
+        The PDF, replaced only by a clean one.
+    own : sequence of Path, optional
+        Other files from the folder of the source, which keep their place relative to it.
+
+    Returns
+    -------
+    int
+        Number of pages.
+
+    Raises
+    ------
+    SignoriniError
+        If LaTeX fails, or warns of an undefined reference or an overfull box: with its own first
+        words on it, and the line of the manuscript.
+    """
+    source = Path(source)
+    with tempfile.TemporaryDirectory(prefix="signorini-") as folder:
+        folder = Path(folder)
+        _gather(folder, source, own, parts)
+        pdf = folder / f"{source.stem}.pdf"
+        result = _latexmk(folder, source.name)
+        log = _log_of(pdf)
+        complaint = _complaint(log, source)
+        if result.returncode or complaint or not pdf.is_file():
+            raise SignoriniError(complaint or _last_words(result, source))
+        with replacing(output, "wb") as stream:
+            stream.write(pdf.read_bytes())
+        return int(_PAGES.search(log.replace("\n", "")).group(1))
+
+
+def _gather(folder, source, own, parts):
+    """Copy everything that LaTeX reads into one folder."""
+    shutil.copy(source, folder)
+    for path in own:
+        place = folder / path.relative_to(source.parent)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, place)
+    for path in map(Path, parts):
+        if path.is_dir():
+            shutil.copytree(path, folder / path.name, ignore=shutil.ignore_patterns(".*"))
+        else:
+            shutil.copy(path, folder)
+
+
+def _latexmk(folder, name):
+    return subprocess.run(
+        [*_LATEXMK, name],
+        cwd=folder,
+        env=os.environ | _ENVIRONMENT,
+        capture_output=True,
+        check=False,
+    )
+
+
+def _log_of(pdf):
+    log = pdf.with_suffix(".log")
+    return log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
+
+
+def _complaint(log, source):
+    """The first thing that LaTeX says is wrong, in one line with its place; None if nothing is."""
+    error, fatal = _ERROR.search(log), _FATAL.search(log)
+    if error:
+        file, line, said = error.groups()
+        earlier = fatal and fatal.start() < error.start()  # which has no line of its own
+        said = fatal[1] if earlier else f"{said}{_culprit(log, error.end(), said)}"
+        return _told(source.parent / file, line, said)
+    if fatal:
+        return _told(source, None, fatal[1])
+    warning = _WARNING.search(log)
+    if warning:
+        line = _LINE.search(warning[0])
+        return _told(source, line and line[1], warning[0].strip())
+    return None
+
+
+def _culprit(log, start, said):
+    """The command that is undefined, which stands at the end of the line that TeX shows next."""
+    if not said.startswith("Undefined control sequence"):
+        return ""
+    shown = re.search(r"^l\.\d+ .*?(\\[A-Za-z@]+|\\.)\s*$", log[start : start + 1000], re.M)
+    return f" {shown[1]}" if shown else ""
+
+
+def _told(path, line, said):
+    place = f"{path}:{line}" if line else f"{path}"
+    remedy = _REMEDIES.get(said.split()[0], "mend it there, or install what is missing")
+    return f"{place}: LaTeX: {cut(said, 200)}; {remedy}"
+
+
+_REMEDIES = {"Overfull": "shorten the line or the table there, or allow it with \\hfuzz"}
+
+
+def _last_words(result, source):
+    """Where LaTeX has no words, the end of what latexmk says."""
+    said = result.stderr.decode(errors="replace").strip()[-300:] or "failed without a message"
+    return _told(source, None, said)

@@ -1,0 +1,89 @@
+"""LaTeX: a clean PDF, or one line with the place in the manuscript and LaTeX's own words."""
+
+import shutil
+
+import pytest
+from articles import ARTICLE
+
+from signorini.exceptions import SignoriniError
+from signorini.publication.typeset import typeset
+
+pytestmark = pytest.mark.skipif(
+    not (shutil.which("latexmk") and shutil.which("pdflatex")), reason="LaTeX is not installed"
+)
+MACROS = "\\newcommand{\\result}[2][]{1}\n"
+
+
+@pytest.fixture
+def article(project):
+    """A function that writes an article, and its path."""
+
+    def written(body):
+        project.write("article/macros-made.tex", MACROS)
+        (project.folder / "made").mkdir()
+        project.write("made/macros.tex", MACROS)
+        return project.write("article/mine.tex", ARTICLE % body)
+
+    return written
+
+
+def run(source, parts=("made/macros.tex",), own=()):
+    return typeset(source, parts, "mine.pdf", own)
+
+
+def test_a_clean_article_with_files_of_its_own_and_a_folder_of_figures(project, article):
+    source = article(
+        r"\input{parts/one} \IfFileExists{figures/l2.txt}{Yes.}{\undefined}\newpage Two."
+    )
+    (project.folder / "article/parts").mkdir()
+    part = project.write("article/parts/one.tex", "One.\n")
+    (project.folder / "figures").mkdir()
+    project.write("figures/l2.txt", "x")
+    assert run(source, ["made/macros.tex", "figures"], [part]) == 2
+    first = (project.folder / "mine.pdf").read_bytes()
+    run(source, ["made/macros.tex", "figures"], [part])
+    assert (project.folder / "mine.pdf").read_bytes() == first
+
+
+WIDE = r"\noindent\hbox to 2\textwidth{\vrule\hfil\vrule}"
+# Body -> place, and what is said.
+COMPLAINTS = {
+    "undefined command": (
+        "One.\n\n\\mistake{a}",
+        ":7: LaTeX: Undefined control sequence. \\mistake; ",
+    ),
+    "left open": (
+        r"\begin{table}",
+        ":6: LaTeX: LaTeX Error: \\begin{table} on input line 5 ended by",
+    ),
+    "missing file": (
+        r"\input{nothing}",
+        ":5: LaTeX: LaTeX Error: File `nothing.tex' not found.; mend",
+    ),
+    "mathematics": ("a_b", ":5: LaTeX: Missing $ inserted.; mend it there, or"),
+    "undefined reference": (
+        "\n\\ref{x}",
+        ":6: LaTeX: LaTeX Warning: Reference `x' on page 1 undefi",
+    ),
+    "overfull": (
+        "\n\n" + WIDE,
+        ":7: LaTeX: Overfull \\hbox (345.0pt too wide) in paragraph at lines ",
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", COMPLAINTS)
+def test_a_mistake_is_told_with_its_line(project, article, mistake):
+    body, said = COMPLAINTS[mistake]
+    with pytest.raises(SignoriniError) as caught:
+        run(article(body))
+    assert str(caught.value).startswith(f"article/mine.tex{said}")
+    assert "\n" not in str(caught.value)
+    assert not (project.folder / "mine.pdf").exists()
+
+
+def test_a_mistake_in_a_part_names_the_part(project, article):
+    source = article(r"\input{part}")
+    part = project.write("article/part.tex", "\n\\mistake\n")
+    with pytest.raises(SignoriniError, match=r"^article/part\.tex:2: LaTeX: Undefined control"):
+        run(source, own=[part])

@@ -28,7 +28,7 @@ def article(project):
 
 
 def run(source, parts=("made/macros.tex",), own=()):
-    return typeset(source, parts, "mine.pdf", own)
+    return typeset(source, parts, "mine.pdf", own).pages
 
 
 def test_a_clean_article_with_files_of_its_own_and_a_folder_of_figures(project, article):
@@ -80,6 +80,14 @@ def test_a_mistake_is_told_with_its_line(project, article, mistake):
     assert str(caught.value).startswith(f"article/mine.tex{said}")
     assert "\n" not in str(caught.value)
     assert not (project.folder / "mine.pdf").exists()
+
+
+def test_a_line_that_is_too_wide_is_told_where_it_is_no_error(article, project):
+    source = article("\n\n" + WIDE)
+    made = typeset(source, ["made/macros.tex"], "mine.pdf", strict=False)
+    assert made.pages == 1
+    (line,) = made.too_wide
+    assert line.startswith("article/mine.tex:7: LaTeX: Overfull \\hbox (345.0pt too wide)")
 
 
 def test_a_mistake_in_a_part_names_the_part(project, article):

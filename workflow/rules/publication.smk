@@ -144,6 +144,7 @@ rule paper:
         appendix=lambda wildcards: [str(path) for path in appendix(wildcards.scene)],
         digest=lambda wildcards: digest(appendix(wildcards.scene)),
         source=lambda wildcards: publication_file(wildcards.scene, "manuscript"),
+        strict=lambda wildcards: "--strict" if publication(wildcards.scene)["strict"] else "",
     shell:
         "python3 -m signorini typeset {params.source:q} {input.parts:q} {params.appendix:q}"
-        " {params.check} -o {output:q} 2>&1 | tee {log:q}"
+        " {params.check} {params.strict} -o {output:q} 2>&1 | tee {log:q}"

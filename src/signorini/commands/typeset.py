@@ -23,6 +23,9 @@ def add_arguments(parser):
         help="generated files that it takes in, or folders of them",
     )
     parser.add_argument("--check", metavar="FILE", help="a verdict that must be there and sealed")
+    parser.add_argument(
+        "--strict", action="store_true", help="let a line or a table that is too wide be an error"
+    )
     add_output(parser, "the document, .pdf")
 
 
@@ -32,8 +35,10 @@ def run(arguments):
     for path in ([arguments.check] if arguments.check else []) + parts:
         read_sealed(path)
     _, *own = read_manuscript(arguments.source).files
-    pages = typeset(arguments.source, arguments.parts, arguments.output, own)
-    return Outcome(f"paper: {pages} pages", {"pages": pages})
+    asked = arguments.source, arguments.parts, arguments.output, own
+    made = typeset(*asked, strict=arguments.strict)
+    lines = [f"paper: {made.pages} pages", *(f"warning: {line}" for line in made.too_wide)]
+    return Outcome("\n".join(lines), {"pages": made.pages, "too wide": made.too_wide})
 
 
 def _files(path):

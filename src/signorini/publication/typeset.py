@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 from signorini.exceptions import SignoriniError
@@ -14,8 +15,9 @@ from signorini.wording import cut
 _ERROR = re.compile(r"^(?:\./)?([^\s:]+\.\w+):(\d+): (.*)$", re.M)  # of -file-line-error
 _FATAL = re.compile(r"^! (.*)$", re.M)
 _WARNING = re.compile(
-    r"^(?:.*Overfull .*|.*undefined.*|.*multiply defined.*|.*Font shape .* not available.*)$", re.M
+    r"^(?:.*undefined.*|.*multiply defined.*|.*Font shape .* not available.*)$", re.M
 )
+_OVERFULL = re.compile(r"^.*Overfull .*$", re.M)
 _LINE = re.compile(r"(?:on input line|at lines?) (\d+)(?:--\d+)?\.?")
 _PAGES = re.compile(r"Output written on .*?\((\d+) pages?")
 _ENVIRONMENT = {
@@ -29,7 +31,22 @@ _OPTIONS = ("-norc", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "-fil
 _LATEXMK = ("latexmk", *_OPTIONS, "-silent")
 
 
-def typeset(source, parts, output, own=()):
+@dataclass(frozen=True)
+class Typeset:
+    """A document that was made.
+
+    Parameters
+    ----------
+    pages : int
+    too_wide : tuple of str
+        Boxes that stick out: place, LaTeX's words, and the remedy.
+    """
+
+    pages: int
+    too_wide: tuple = ()
+
+
+def typeset(source, parts, output, own=(), strict=True):
     """Run latexmk on a source.
 
     Parameters
@@ -42,17 +59,18 @@ def typeset(source, parts, output, own=()):
         The PDF, replaced only by a clean one.
     own : sequence of Path, optional
         Other files from the folder of the source, which keep their place relative to it.
+    strict : bool, optional
+        Whether an overfull box is an error.
 
     Returns
     -------
-    int
-        Number of pages.
+    Typeset
 
     Raises
     ------
     SignoriniError
-        If LaTeX fails, or warns of an undefined reference or an overfull box: with its own first
-        words on it, and the line of the manuscript.
+        If LaTeX fails, or warns of an undefined reference or, where it is strict, an overfull box:
+        with its own first words on it, and the line of the manuscript.
     """
     source = Path(source)
     with tempfile.TemporaryDirectory(prefix="signorini-") as folder:
@@ -61,12 +79,14 @@ def typeset(source, parts, output, own=()):
         pdf = folder / f"{source.stem}.pdf"
         result = _latexmk(folder, source.name)
         log = _log_of(pdf)
-        complaint = _complaint(log, source)
+        too_wide = [_of_line(found, source) for found in _OVERFULL.finditer(log)]
+        complaint = _complaint(log, source) or (too_wide[0] if strict and too_wide else None)
         if result.returncode or complaint or not pdf.is_file():
             raise SignoriniError(complaint or _last_words(result, source))
         with replacing(output, "wb") as stream:
             stream.write(pdf.read_bytes())
-        return int(_PAGES.search(log.replace("\n", "")).group(1))
+        pages = int(_PAGES.search(log.replace("\n", "")).group(1))
+        return Typeset(pages, tuple(too_wide))
 
 
 def _gather(folder, source, own, parts):
@@ -109,10 +129,13 @@ def _complaint(log, source):
     if fatal:
         return _told(source, None, fatal[1])
     warning = _WARNING.search(log)
-    if warning:
-        line = _LINE.search(warning[0])
-        return _told(source, line and line[1], warning[0].strip())
-    return None
+    return _of_line(warning, source) if warning else None
+
+
+def _of_line(warning, source):
+    """A warning that tells its line itself."""
+    line = _LINE.search(warning[0])
+    return _told(source, line and line[1], warning[0].strip())
 
 
 def _culprit(log, start, said):

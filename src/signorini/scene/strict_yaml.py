@@ -105,7 +105,7 @@ def load_yaml(path):
     Examples
     --------
     >>> sorted(load_yaml("config/config.yaml"))
-    ['scenes']
+    ['scenes', 'studied']
     """
     text = _read(path)
     try:

@@ -9,7 +9,7 @@ from signorini.wording import nearest
 
 TABLE, SURFACE = "table", "surface"
 FIGURES = (SURFACE, *RATED)  # that can have a name
-TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability")  # by other files of LaTeX
+TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory")  # by other files of LaTeX
 _PLAIN = re.compile(r"[\w.+@ /-]+")
 
 

@@ -61,7 +61,9 @@ def _line(path, part, root, required, examples):
     values, part = _values(part, root), _resolved(part, root)
     facts = [f"{values[0].upper()}{values[1:]}"]
     if "x-kind" in part:
-        facts.append(f"only where kind is {part['x-kind']}")
+        kinds = part["x-kind"]
+        told = kinds if isinstance(kinds, str) else " or ".join(kinds)
+        facts.append(f"only where kind is {told}")
     if required:
         facts.append("required")
     elif "default" in part:

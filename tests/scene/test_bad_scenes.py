@@ -11,7 +11,36 @@ from scene_texts import VALID, changed
 from signorini.exceptions import FormulaError, SceneError
 from signorini.scene.strict_yaml import load_yaml
 
+POLYGON = changed(
+    "{kind: rectangle, origin: [0, 0], size: [1, 1], diagonal: falling}",
+    "{kind: polygon, corners: [[0, 0], [1, 0], [0, 1]], boundary_shape: SHAPE}",
+).replace(
+    "{top: dirichlet, bottom: contact, left: neumann, right: neumann}",
+    "{side-0: dirichlet, side-1: contact, side-2: neumann}",
+)
+
+
+def shaped(shape):
+    """A triangle whose boundary has a shape."""
+    return POLYGON.replace("SHAPE", shape)
+
+
+CIRCLE = "{center: [0, 0], radius: 1}"
 BAD_INPUT = {
+    "curved side, reference": (shaped(f"{{side-1: {CIRCLE}}}"), "do not nest in a reference"),
+    "curved side, unknown": (
+        shaped(f"{{side-9: {CIRCLE}}}"),
+        "domain.boundary_shape.side-9: the domain has no such part; did you mean side-",
+    ),
+    "curved side, radius zero": (
+        shaped("{side-1: {center: [0, 0], radius: 0}}"),
+        "domain.boundary_shape.side-1",
+    ),
+    "curved side, no formula": (shaped('{side-1: "x +"}'), "domain.boundary_shape.side-1"),
+    "curved side of a rectangle": (
+        changed("diagonal: falling", f"boundary_shape: {{top: {CIRCLE}}}"),
+        "domain.boundary_shape: only for kind polygon or mesh, here kind is rectangle",
+    ),
     # case: (text, what the message must hold)
     "unknown element": (
         changed("[P1, CR]", "[P1, P2]"),

@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[2] / "config" / "scenes"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 SHIPPED = {
     "paper", "paper-exact", "corner", "punch", "smooth", "biactive", "patch", "uniform-load",
-    "many-contacts", "obstacle", "glacis", "l-shape", "gasket", "figure-2-1",
+    "many-contacts", "obstacle", "glacis", "l-shape", "gasket", "figure-2-1", "annulus",
 }  # fmt: skip
 
 

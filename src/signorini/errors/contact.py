@@ -9,6 +9,7 @@ from signorini.fem.contact_line import contact_flux, critical_points
 from signorini.fem.elements import find_element
 from signorini.fem.quadrature import interval_rule
 from signorini.mesh.boundary_trace import find_boundary_trace
+from signorini.mesh.curved import true_places
 
 _DEGREE = 7
 _FEWEST_CELLS = 64  # fewer are cut until there are as many
@@ -50,11 +51,12 @@ def contact_errors(mesh, element, solution, exact):
     cells, place, normal = element.multiplier_cells(trace, dofs)
     density = np.tile(contact_flux(mesh, element, dofs, solution.force)[place], (2, 1))
     u = element.vertex_values(mesh, solution.u)[trace.local, trace.triangles]
+    known = _points_on(trace, exact.critical_points, _rise(mesh, trace))
     critical = critical_points(mesh, element, dofs, solution.active)
     return {
         "trace_l2": _distance(exact.value, trace.ends, u, exact.singular_points),
         "multiplier_l2": _distance(exact.flux, cells, density, exact.singular_points, normal),
-        "critical_points": _hausdorff(_points_on(trace, exact.critical_points), critical),
+        "critical_points": _hausdorff(known, critical),
     }
 
 
@@ -77,15 +79,26 @@ def _distance(function, segments, values, singular_points, normal=None):
     return root(squares)
 
 
-def _points_on(trace, points):
-    """Those of the points that lie on the facets of a boundary trace, to rounding: (2, k)."""
+def _points_on(trace, points, rise):
+    """Those of the points that lie on the facets of a boundary trace: (2, k).
+
+    To rounding, or as far from a facet as the curve that this stands for.
+    """
     points = np.reshape(np.asarray(points, dtype=float), (-1, 2)).T
     start, end = trace.ends[:, 0, :, None], trace.ends[:, 1, :, None]
     along, from_start = end - start, points[:, None] - start
     s = (from_start * along).sum(axis=0) / (along * along).sum(axis=0)
     nearest = start + np.clip(s, 0.0, 1.0) * along
     distance = np.hypot(*(nearest - points[:, None]))
-    return points[:, (distance <= _ON_LINE * trace.length.sum()).any(axis=0)]
+    near = _ON_LINE * trace.length.sum() + rise[:, None]
+    return points[:, (distance <= near).any(axis=0)]
+
+
+def _rise(mesh, trace):
+    """How far the curve that a facet stands for rises above it, (m,); 0 where it is straight."""
+    middles = trace.ends.mean(axis=1)
+    curved, _ = true_places(mesh, trace.facets, middles, trace.normal)
+    return 1.1 * np.hypot(*(curved - middles))
 
 
 def _hausdorff(exact, discrete):

@@ -22,6 +22,7 @@ from signorini.errors.projection import project, prolong, squared_l2
 from signorini.exceptions import MeshError, SceneError
 from signorini.fem.elements import find_element
 from signorini.fem.quadrature import triangle_rule
+from signorini.mesh.curved import curves_of
 
 
 class ReferenceErrors:
@@ -62,6 +63,10 @@ class ReferenceErrors:
         unknown = [norm for norm in norms if norm not in DOMAIN]
         if unknown:
             raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
+        if curves_of(mesh):
+            raise MeshError(
+                "mesh: the levels of a curved side do not nest in a reference; use an exact truth"
+            )
         self.mesh = mesh
         self.norms = tuple(norms)
         self.quadrature = quadrature

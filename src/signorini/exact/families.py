@@ -62,7 +62,7 @@ class Parameter(NamedTuple):
 
 @dataclass(frozen=True)
 class Family:
-    """A family of exact solutions with contact on the bottom side of the body.
+    """A family of exact solutions with contact at the bottom of the body.
 
     Parameters
     ----------
@@ -195,6 +195,16 @@ def _punch(**parameters):
     return Punch(**parameters)
 
 
+def _annulus(half_angle, load, press):
+    from signorini.exact.annulus import Annulus
+
+    if half_angle >= math.pi:
+        raise SceneError(
+            f"truth.parameters.half_angle: {half_angle:g} is not valid; it must be < pi"
+        )
+    return Annulus(half_angle, load, press)
+
+
 def _from_text(u, obstacle, critical_points=()):
     obstacle = Formula(obstacle, "truth.obstacle")
     return FormulaSolution(Formula(u, "truth.u"), obstacle, critical_points)
@@ -246,6 +256,16 @@ FAMILIES = {
         "contact for |x - x0| <= half_width, where du/dnu = sqrt(half_width^2 - (x - x0)^2); f = 0",
         {"half_width": Parameter(1.0, 0.0, True, "half the length of the contact zone"), **_PLACE},
         _punch,
+    ),
+    "annulus": Family(
+        "within the unit circle, contact up to the angle half_angle from its lowest point; there, "
+        "at the angle t, du/dnu = 2 press cos(t/2) sqrt(2 (cos t - cos half_angle)); f = load",
+        {
+            "half_angle": Parameter(1.0, 0.0, True, "half the angle of the contact zone"),
+            "load": Parameter(-1.0, meaning="f"),
+            "press": Parameter(1.0, 0.0, True, "factor of the contact force"),
+        },
+        _annulus,
     ),
     "smooth": Family(
         "twice differentiable, one critical point (x0, 0), obstacle 0.1 sin 3x",

@@ -13,6 +13,7 @@ from signorini.fem.quadrature import triangle_rule
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula
 from signorini.mesh.boundary_trace import find_boundary_trace
+from signorini.mesh.curved import true_places
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.grid import Grid
 from signorini.mesh.labels import NamedMesh
@@ -144,7 +145,8 @@ def _on_side(mesh, label):
     total = max(trace.length.sum(), np.finfo(float).tiny)  # zero where no facet has the label
     counts = np.maximum(3, np.ceil(ON_SIDES * trace.length / total)).astype(int)
     points, facets = trace.evenly_spaced(counts)
-    return (*points, *trace.normal[:, facets])
+    points, normals = true_places(mesh, trace.facets[facets], points, trace.normal[:, facets])
+    return (*points, *normals)
 
 
 def _labelled(sides, boundary):

@@ -19,7 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import LABELS
+from signorini.mesh.boundary import LABELS, part_key
+from signorini.mesh.curved import curves_of, followed
 from signorini.mesh.triangulation import Triangulation
 
 
@@ -83,17 +84,19 @@ def bisectable(mesh):
     if isinstance(mesh, Bisected):
         return mesh
     p, t = np.asarray(mesh.p), np.asarray(mesh.t)
-    ends = {label: mesh.facet_ends(mesh.boundary_facets(label)) for label in LABELS}
+    labels = (*LABELS, *map(part_key, curves_of(mesh)))
+    ends = {label: mesh.facet_ends(mesh.boundary_facets(label)) for label in labels}
     turned = _longest_first(p, t)
     subdomains = getattr(mesh, "subdomains", {})
+    parts = p, turned, ends, subdomains, None, curves_of(mesh)
     coarser = mesh.coarser()
     if coarser is None:
-        return Triangulation(p, turned, ends, subdomains)
+        return Triangulation(*parts)
     ancestor = np.empty(t.shape[1], dtype=np.int32)
     ancestor[mesh.children(np.arange(t.shape[1])[None])[:, 0]] = np.arange(
         coarser.number_of_triangles
     )
-    return Bisected(p, turned, ends, subdomains, None, coarser, mesh.vertex_parents(), ancestor)
+    return Bisected(*parts, coarser, mesh.vertex_parents(), ancestor)
 
 
 def bisect(mesh, marked):
@@ -130,10 +133,13 @@ def bisect(mesh, marked):
     t, ancestor = _cut_twice(mesh.t, middle[mesh.t2f])
     cut_facets = mesh.facets[:, halved]
     own = np.arange(count, dtype=np.int32)
+    ends = {label: _halves(mesh, label, middle) for label in mesh.ends}
+    p = np.hstack([mesh.p, _middles(mesh.p, cut_facets)])
     return Bisected(
-        p=np.hstack([mesh.p, _middles(mesh.p, cut_facets)]),
+        p=followed(p, t, mesh.curves, ends, first=count),
         t=t,
-        ends={label: _halves(mesh, label, middle) for label in mesh.ends},
+        ends=ends,
+        curves=mesh.curves,
         subdomains={name: _within(ancestor, cells) for name, cells in mesh.subdomains.items()},
         origin=mesh,
         pairs=np.hstack([np.stack([own, own]), cut_facets]),

@@ -9,7 +9,8 @@ from dataclasses import asdict
 
 import numpy as np
 
-from signorini.mesh.boundary import LABELS, by_formula
+from signorini.mesh.boundary import LABELS, by_formula, part_key
+from signorini.mesh.curved import with_curved_sides
 from signorini.mesh.rectangle import Rectangle
 from signorini.mesh.refined import Refined
 from signorini.storage import read_npz, write_npz
@@ -54,19 +55,22 @@ def make_domain(domain, boundary, coarsest):
     if domain["kind"] == "given":
         root = labelled(domain["mesh"], boundary, domain["rest"], keep=boundary)
         return Refined(root, coarsest, domain["width"])
-    mesh = root_mesh(domain, coarsest)
+    curves = read_curves(domain.get("boundary_shape", {}))
+    mesh = root_mesh(domain, coarsest, curves)
     width = longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
-    root = labelled(mesh, boundary_rules(boundary))
+    root = labelled(mesh, boundary_rules(boundary), keep=curves, curves=curves)
     return Refined(root, coarsest, width, boundary if by_formula(boundary) else None)
 
 
-def root_mesh(domain, coarsest):
+def root_mesh(domain, coarsest, curves=None):
     """The root of a domain that is no rectangle, not yet labelled: a `NamedMesh`.
 
     Parameters
     ----------
     domain, coarsest
         See `make_domain`, also for what is raised.
+    curves : dict of str to Circle or LevelSet, optional
+        Of the parts of the boundary that are curved.
 
     Returns
     -------
@@ -77,15 +81,23 @@ def root_mesh(domain, coarsest):
 
         mesh = import_mesh(domain["file"])
     else:
-        from signorini.mesh.polygon import triangulate
-
-        sides = domain.get("sides")
-        mesh = triangulate(domain["corners"], domain["holes"], 1.0 / coarsest, sides)
+        mesh = _triangulated(domain, 1.0 / coarsest, curves)
     if "perturb" in domain:
         from signorini.mesh.patterns import perturbed
 
         mesh = perturbed(mesh, domain["perturb"]["amount"], domain["perturb"]["seed"])
-    return mesh
+    return with_curved_sides(mesh, curves) if curves else mesh
+
+
+def _triangulated(domain, size, curves):
+    """The triangulation of a polygon, or of what its curved sides make of it."""
+    if curves:
+        from signorini.mesh.arcs import triangulate_curved
+
+        return triangulate_curved(domain, size, curves)
+    from signorini.mesh.polygon import triangulate
+
+    return triangulate(domain["corners"], domain["holes"], size, domain.get("sides"))
 
 
 def longest_edge(mesh):
@@ -130,6 +142,9 @@ def write_domain(path, domain):
         "boundary": domain.boundary,
         "subdomains": list(root.subdomains),
     }
+    if root.curves:
+        curves = {name: curve.told for name, curve in root.curves.items()}
+        specification["curves"] = curves
     subdomains = {f"subdomain_{k}": cells for k, cells in enumerate(root.subdomains.values())}
     write_npz(
         path,
@@ -156,7 +171,35 @@ def read_domain(path):
         return Rectangle(**fields)
     from signorini.mesh.triangulation import Triangulation
 
-    ends = {label: arrays[label] for label in LABELS if label in arrays}
+    curves = read_curves(fields.pop("curves", {}))
+    labels = (*LABELS, *map(part_key, curves))
+    ends = {label: arrays[label] for label in labels if label in arrays}
     names = fields.pop("subdomains")
     subdomains = {name: arrays[f"subdomain_{k}"] for k, name in enumerate(names)}
-    return Refined(Triangulation(arrays["p"], arrays["t"], ends, subdomains), **fields)
+    root = Triangulation(arrays["p"], arrays["t"], ends, subdomains, curves=curves)
+    return Refined(root, **fields)
+
+
+def read_curves(section):
+    """The curved parts of a boundary.
+
+    Parameters
+    ----------
+    section : dict
+        Name of a part -> its curve, see `curves.read_curve`.
+
+    Returns
+    -------
+    dict of str to Circle or LevelSet
+
+    Raises
+    ------
+    MeshError, FormulaError
+        Naming the part.
+    """
+    if not section:  # no formula is read where there is none
+        return {}
+    from signorini.mesh.curves import read_curve
+
+    field = "domain.boundary_shape"
+    return {name: read_curve(given, f"{field}.{name}") for name, given in section.items()}

@@ -162,7 +162,7 @@ def label_boundary(mesh, rules, rest=None):
     return {label: mesh.boundary[selected] for label, selected in carries.items()}
 
 
-def labelled(mesh, rules, rest=None, keep=()):
+def labelled(mesh, rules, rest=None, keep=(), curves=None):
     """The `Triangulation` of a mesh whose boundary is labelled.
 
     Parameters
@@ -174,6 +174,8 @@ def labelled(mesh, rules, rest=None, keep=()):
         See `label_boundary`.
     keep : iterable of str, optional
         Parts whose facets the triangulation and its refinements know by their `part_key`.
+    curves : dict of str to Circle or LevelSet, optional
+        Those among `keep` that are curved.
 
     Returns
     -------
@@ -190,7 +192,7 @@ def labelled(mesh, rules, rest=None, keep=()):
     ends = labelled_ends(mesh, rules, rest)
     for name in keep:
         ends[part_key(name)] = mesh.facets[:, mesh.boundary[_selected(mesh, name)]]
-    return Triangulation(mesh.p, mesh.t, ends, mesh.regions)
+    return Triangulation(mesh.p, mesh.t, ends, mesh.regions, curves=curves or {})
 
 
 def labelled_ends(mesh, rules, rest=None):

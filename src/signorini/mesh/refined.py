@@ -79,7 +79,7 @@ class Refined:
         from signorini.mesh.rules import boundary_rules
 
         ends = labelled_ends(NamedMesh(finer.p, finer.t), boundary_rules(self.boundary))
-        return replace(finer, ends=ends)
+        return replace(finer, ends=finer.ends | ends)
 
     def mesh_size(self, n):
         """The mesh width h of level n: half the root's for each doubling of n; unit of length."""

@@ -13,6 +13,7 @@ from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
 from signorini.mesh import refinement
 from signorini.mesh.boundary import LABELS, PART
+from signorini.mesh.curved import followed
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.geometry import cross, triangle_areas
 from signorini.mesh.grid import Triangles
@@ -36,6 +37,8 @@ class Triangulation:
         Triangles in each named part of the domain, inherited by refinement.
     parent : Triangulation, optional
         The mesh this one was refined from.
+    curves : dict of str to Circle or LevelSet, optional
+        What the named parts of the boundary are in truth: new vertices there are put onto it.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class Triangulation:
     ends: dict = field(default_factory=dict)
     subdomains: dict = field(default_factory=dict)
     parent: "Triangulation | None" = None
+    curves: dict = field(default_factory=dict)
 
     def __post_init__(self):
         ends = {label: _numbers(pairs) for label, pairs in self.ends.items()}
@@ -183,9 +187,9 @@ class Triangulation:
     def stretch(self):
         """The largest ratio of a triangle's longest edge to the height on it, dimensionless.
 
-        Refinement keeps it, so it is taken from the root mesh.
+        Refinement keeps it where no side is curved, so it is then taken from the root mesh.
         """
-        if self.parent is not None:
+        if self.parent is not None and not self.curves:
             return self.parent.stretch
         return max(self._stretch(cells) for cells in chunk_slices(self.number_of_triangles))
 
@@ -289,6 +293,8 @@ class Triangulation:
     def refined(self):
         """Each triangle cut into four by the midpoints of its facets; the labels are inherited.
 
+        On curved sides, see `curves`, the new vertices are the nearest points of the curves.
+
         Examples
         --------
         >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
@@ -296,7 +302,9 @@ class Triangulation:
         >>> fine.number_of_triangles, fine.area.tolist()
         (4, [0.125, 0.125, 0.125, 0.125])
         """
-        return Triangulation(*refinement.refined_arrays(self), parent=self)
+        p, t, ends, subdomains = refinement.refined_arrays(self)
+        p = followed(p, t, self.curves, ends, first=self.number_of_vertices)
+        return Triangulation(p, t, ends, subdomains, self, self.curves)
 
     def coarser(self):
         """The mesh this one was refined from, or None."""

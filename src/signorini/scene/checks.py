@@ -9,6 +9,7 @@ from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
 from signorini.mesh.cell_counts import count_cells
+from signorini.scene.shape_checks import check_shapes, refuse_shapes
 from signorini.wording import nearest, shown
 
 _NESTED = ("falling", "rising")
@@ -27,6 +28,7 @@ def check_document(document):
         Naming the field, its value and the remedy.
     """
     _DOMAIN_CHECKS[document["domain"]["kind"]](document["domain"])
+    check_shapes(document["domain"], _part_names(document["domain"]))
     _check_boundary(document["boundary"], _part_names(document["domain"]))
     if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
         raise SceneError(
@@ -206,6 +208,7 @@ def _check_truth(document):
         )
     if truth["kind"] == "reference":
         _check_reference(levels, truth)
+        refuse_shapes(domain)
         if domain["kind"] == "rectangle":
             _check_nesting(domain)
     if domain["kind"] != "rectangle":

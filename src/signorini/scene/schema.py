@@ -73,7 +73,7 @@ def _check_kinds(document, schema, source, field=""):
     for key, part in schema.get("properties", {}).items():
         if key in document and not _fits(document, part):
             raise SceneError(
-                f"{source}: {field}{key}: only for kind {part['x-kind']}, "
+                f"{source}: {field}{key}: only for kind {' or '.join(_kinds(part))}, "
                 f"here kind is {document['kind']}; drop one of the two"
             )
         if isinstance(document.get(key), dict):
@@ -81,7 +81,12 @@ def _check_kinds(document, schema, source, field=""):
 
 
 def _fits(document, part):
-    return "x-kind" not in part or part["x-kind"] == document.get("kind")
+    return "x-kind" not in part or document.get("kind") in _kinds(part)
+
+
+def _kinds(part):
+    """The kinds of a section that a key is for."""
+    return [part["x-kind"]] if isinstance(part["x-kind"], str) else part["x-kind"]
 
 
 def _fill(document, schema):

@@ -6,7 +6,6 @@ import numpy as np
 
 from signorini.exact.solution import ExactSolution
 from signorini.formula import Formula
-from signorini.formula.values import hypot
 
 
 @dataclass(frozen=True)
@@ -37,8 +36,7 @@ class Annulus(ExactSolution):
 
         F = S (1 - 1/z) + (1 - g) (log(z - g + S) + log(z) - log(1 - g z + S)),
 
-    whose real part is single-valued. S is the product of the roots of 1 - z exp(-i half_angle) and
-    1 - z exp(i half_angle), whose cuts run outwards from the critical points.
+    whose real part is single-valued. The cuts of S run outwards from the critical points.
     """
 
     half_angle: float
@@ -65,38 +63,37 @@ class Annulus(ExactSolution):
 
     def value(self, x, y):
         """u at points, by the closed form; parameters as in `ExactSolution.value`."""
-        return self.value_and_gradient(x, y)[0]
+        return self._value(x, y, *self._factors(x, y))
 
     def gradient(self, x, y):
         """Partial derivatives of u at points; as in `ExactSolution.gradient`."""
-        return self.value_and_gradient(x, y)[1:]
+        return self._gradient(x, y, *self._factors(x, y))
 
     def value_and_gradient(self, x, y):
         """u and its partial derivatives; as in `ExactSolution.value_and_gradient`."""
-        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
-        z = 1j * (x + 1j * y)
-        root = self._root(z)
-        slope = self.press * root * (z + 1.0) / (z * z)
-        u, by_radius = self._radial(hypot(x, y))
-        u = u + self.press * self._potential(z, root)
-        # du/dx - i du/dy is i times the derivative by z.
-        return u, -slope.imag + by_radius * x, -slope.real + by_radius * y
+        factors = self._factors(x, y)
+        return self._value(x, y, *factors), *self._gradient(x, y, *factors)
 
     def load(self, x, y):
         """The constant load; as in `ExactSolution.load`."""
         return np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), self.load_value)
 
-    def _root(self, z):
+    def _factors(self, x, y):
+        """z and S."""
+        z = 1j * np.asarray(x) - np.asarray(y)
         end = np.exp(1j * self.half_angle)
-        return np.sqrt(1.0 - z * np.conj(end)) * np.sqrt(1.0 - z * end)
+        # Within the circle the angles of both factors add up to less than pi: one root serves.
+        return z, np.sqrt((1.0 - z * np.conj(end)) * (1.0 - z * end))
 
-    def _potential(self, z, root):
-        """Re F."""
-        g = np.cos(self.half_angle)
-        logarithms = np.abs(z - g + root) * np.abs(z) / np.abs(1.0 - g * z + root)
-        return (root * (1.0 - 1.0 / z)).real + (1.0 - g) * np.log(logarithms)
+    def _value(self, x, y, z, root):
+        g, square = np.cos(self.half_angle), np.square(x) + np.square(y)
+        shares = np.abs(z - g + root) / np.abs(1.0 - g * z + root)
+        potential = (root * (1.0 - 1.0 / z)).real + (1.0 - g) * np.log(shares * np.sqrt(square))
+        by_load = 0.25 * (np.log(square) - (square - 1.0))
+        return self.press * potential + self.load_value * by_load
 
-    def _radial(self, r):
-        """The part of the load, and its derivative by r over r."""
-        value = self.load_value * (0.5 * np.log(r) - 0.25 * (r * r - 1.0))
-        return value, self.load_value * (0.5 / (r * r) - 0.5)
+    def _gradient(self, x, y, z, root):
+        # du/dx - i du/dy is i times the derivative by z.
+        slope = self.press * root * (z + 1.0) / (z * z)
+        by_load = self.load_value * (0.5 / (np.square(x) + np.square(y)) - 0.5)
+        return by_load * x - slope.imag, by_load * y - slope.real

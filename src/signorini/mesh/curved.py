@@ -136,7 +136,9 @@ def true_places(mesh, facets, points, normals):
     """
     points, normals = points.copy(), normals.copy()
     for name, curve in curves_of(mesh).items():
-        at = np.isin(facets, mesh.boundary_facets(part_key(name)))
+        of_part = np.zeros(mesh.number_of_facets, dtype=bool)
+        of_part[mesh.boundary_facets(part_key(name))] = True
+        at = of_part[facets]
         points[:, at] = curve.nearest(points[:, at])
         true = curve.normals(points[:, at])
         outward = (true * normals[:, at]).sum(axis=0) > 0.0

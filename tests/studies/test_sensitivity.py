@@ -189,7 +189,7 @@ def test_the_page_says_what_was_found():
     text = page("markdown", combined(), falling(), 512)
     assert "quick" not in text
     assert (
-        "All 24 errors come out under 4 of them: diagonal falling, load by centroid,"
+        "All 24 errors are matched by 4 of them: diagonal falling, load by centroid,"
         " norms exact or by midpoints" in text
     )
     assert (

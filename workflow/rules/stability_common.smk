@@ -28,7 +28,7 @@ STABILITY_SCHEMA = LIBRARY / "signorini/studies/stability/settings.schema.yaml"
 @cache
 @reported
 def suite():
-    """The settings, checked, with what stands under quick in place of the rest where that is asked for."""
+    """The settings, checked; on a quick run those under quick replace the others."""
     settings = validated(
         load_yaml(STABILITY_SETTINGS), load_yaml(STABILITY_SCHEMA), STABILITY_SETTINGS
     )

@@ -12,6 +12,7 @@ TYPES = {
     "object": "section",
     None: "value",
 }
+NAME = "NAME"  # stands for keys that a user chooses
 DEFINED = {"#/$defs/formula": "number or formula", "#/$defs/pair": "two numbers"}
 
 
@@ -47,6 +48,8 @@ def _properties(schema, root):
     for word in ("oneOf", "anyOf", "allOf"):
         for part in schema.get(word, ()):
             found = _properties(_resolved(part, root), root) | found
+    if "properties" in (named := schema.get("additionalProperties") or {}):
+        found[NAME] = {"description": "A name of your own.", **named}
     return found
 
 

@@ -227,6 +227,23 @@ BAD_INPUT = {
     "not utf-8": (b"title: \xff\n", "not UTF-8"),
     "deep": ("[" * 50_000, "malformed YAML"),
     "long": ("#" * 200_000, "longer than 100000 characters"),
+    "quantity of an unknown kind": (
+        VALID + "quantities: {force: {kind: fluxes}}\n",
+        'quantities.force.kind: "fluxes" is not valid; did you mean flux?',
+    ),
+    "quantity with another's option": (
+        VALID + "quantities: {force: {kind: flux, which: 2}}\n",
+        "quantities.force.which: only for kind critical_point, here kind is flux",
+    ),
+    "quantity of a part that is not there": (
+        changed("top: dirichlet", "top: neumann")
+        + "quantities: {leak: {kind: flux, through: dirichlet}}\n",
+        "quantities.leak: no part of the boundary is dirichlet; label one dirichlet, or drop leak",
+    ),
+    "quantity without a kind": (
+        VALID + "quantities: {force: {unit: N}}\n",
+        "quantities.force.kind: missing",
+    ),
     "threshold without contact part": (
         changed("bottom: contact", "bottom: neumann").replace("obstacle: 0", "contact_flux: 0.5"),
         "data.contact_flux: 0.5 acts on no part of the boundary; label a part of the boundary "
@@ -237,8 +254,8 @@ BAD_INPUT = {
         "constraint: upper bounds u on no part of the boundary",
     ),
     "threshold not finite": (
-        changed("obstacle: 0", "contact_flux: .inf"),
-        "data.contact_flux: inf",
+        changed("obstacle: 0", "contact_flux: 1e999"),
+        "number 1e999 is out of range",
     ),
     "unknown constraint": (
         VALID + "constraint: above\n",

@@ -26,6 +26,29 @@ rule errors:
         " {params.reference} {params.norms} -o {output:q} 2>&1 | tee {log:q}"
 
 
+# The quantities that a scene asks for, of each solution and of the reference.
+rule outputs:
+    input:
+        library("outputs"),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+        reference=reference_file,
+        solutions=solution_files,
+    output:
+        "results/{scene}/outputs.csv",
+    log:
+        "results/{scene}/logs/outputs.log",
+    benchmark:
+        "results/{scene}/benchmarks/outputs.tsv"
+    params:
+        content=content("outputs"),
+        asked=parts("quantities"),
+        statement=statement,
+    shell:
+        "python3 -m signorini outputs {input.scene:q} {input.solutions:q} {input.reference:q}"
+        " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
+
+
 rule rates:
     input:
         library("rates"),

@@ -17,6 +17,7 @@ def scene_output(name):
     outputs = asked.document["outputs"]
     files = [f"{output}.csv" for output in ("errors", "rates") if output in outputs]
     files += [f"{names_of(asked.document)[TABLE]}.tex"] if "table" in outputs else []
+    files += ["outputs.csv"] if asked.document["quantities"] else []
     files += ["expect.txt"] if "expect" in asked.document else []
     files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
     files += (named_figures(name) or ["figures"]) if "figures" in outputs else []

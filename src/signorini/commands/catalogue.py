@@ -20,6 +20,7 @@ CATALOGUE = {
         "solve": "discretise a scene at one level, solve it, and prove the result",
         "errors": "measure errors against a scene's reference or exact solution",
         "rates": "fit slopes of the errors",
+        "outputs": "compute the quantities that a scene asks for",
         "expect": "compare slopes and errors with what a scene expects",
         "show": "say what is in a result file",
     },

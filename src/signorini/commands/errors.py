@@ -8,17 +8,16 @@ example:
   signorini errors config/scenes/paper.yaml --reference reference.npz -o errors.csv u4.npz u8.npz
 """
 
-import logging
-
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.commands.solving import solve_level, solve_levels
+from signorini.commands.text_table import text_table
 from signorini.errors.measure import against_exact, against_reference, row
 from signorini.exceptions import SceneError
 from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
 
-_log = logging.getLogger(__name__)
 _SHOWN = ("element", "n", "h", "dofs")
 
 
@@ -49,12 +48,14 @@ def run(arguments):
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)
         errors = _errors(scene, domain, norms, arguments.reference)
-        found = map(read_solution, arguments.solutions) if arguments.solutions else _solved(scene)
+        found = solve_levels(scene)
+        if arguments.solutions:
+            found = map(read_solution, arguments.solutions)
         rows = [row(solution, errors) for solution in found]
     if arguments.output:
         write_csv(arguments.output, rows)
         return Outcome(f"errors: {len(rows)} solutions", rows)
-    return Outcome(_shown(rows, norms), rows)
+    return Outcome(text_table(rows, [*_SHOWN, *norms, "status"]), rows)
 
 
 def _errors(scene, domain, norms, reference):
@@ -64,42 +65,7 @@ def _errors(scene, domain, norms, reference):
     if reference:
         truth = read_solution(reference)
     else:
-        truth = _solve(scene, scene.truth["element"], scene.truth["n"])
+        truth = solve_level(scene, scene.truth["element"], scene.truth["n"])
     quadrature = scene.document["norm_quadrature"]
     coefficient = scene.document["data"]["coefficient"]
     return against_reference(truth, domain, norms, quadrature, coefficient)
-
-
-def _solved(scene):
-    """The solution of every element and level, one after the other."""
-    for element in scene.elements:
-        for n in scene.levels:
-            yield _solve(scene, element, n)
-
-
-def _solve(scene, element, n):
-    from signorini.fem.problem import discretize_on
-    from signorini.solvers import solve
-    from signorini.solvers.stored import stored
-
-    _log.info("%s n = %d: solving", element, n)
-    domain, method = scene.problem_statement.triangulations, scene.document["solver"]["method"]
-    problem = discretize_on(domain.level(n), element, scene.problem_statement)
-    return stored(problem, solve(problem, method), n, domain.mesh_size(n))
-
-
-def _shown(rows, norms):
-    """A table for a terminal."""
-    columns = [*_SHOWN, *norms, "status"]
-    cells = [columns, *([_cell(row[name]) for name in columns] for row in rows)]
-    widths = [max(len(line[k]) for line in cells) for k in range(len(columns))]
-    return "\n".join(
-        "  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True))
-        for line in cells
-    )
-
-
-def _cell(value):
-    if isinstance(value, float):
-        return f"{value:.4e}"
-    return "" if value is None else str(value)

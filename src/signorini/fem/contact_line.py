@@ -209,6 +209,25 @@ def critical_points(mesh, element, contact, active):
     return _ordered(mesh, find_element(element), contact, active).critical_points
 
 
+def critical_places(mesh, solution):
+    """The critical points of a solution with their arc lengths, in the order of the line.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+        The solution's.
+    solution : StoredSolution
+
+    Returns
+    -------
+    ndarray, shape (3, k)
+        Arc length, x and y; unit of length.
+    """
+    line = _ordered(mesh, find_element(solution.element), solution.contact, solution.active)
+    arc = line.critical[~np.isnan(line.critical)]
+    return np.concatenate([arc[None], line.critical_points])
+
+
 def _ordered(mesh, element, contact, active):
     """The `ContactLine` of a solution, by its contact dofs and which of them bind."""
     position = np.full(element.size(mesh), -1)

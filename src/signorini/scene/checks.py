@@ -9,6 +9,7 @@ from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
 from signorini.mesh.cell_counts import count_cells
+from signorini.scene.quantities import check_quantities
 from signorini.scene.shape_checks import check_shapes, refuse_shapes
 from signorini.wording import nearest, shown
 
@@ -40,6 +41,7 @@ def check_document(document):
     _check_truth(document)
     _check_cells(document)
     _check_outputs(document)
+    check_quantities(document)
     _check_norms(document)
 
 

@@ -1,0 +1,112 @@
+"""Numbers that a discrete solution is computed for: lengths, places and fluxes on the boundary."""
+
+import numpy as np
+
+from signorini.fem.contact_line import binding_pieces, critical_places
+from signorini.mesh.boundary_trace import find_boundary_trace
+
+
+def contact_length(problem, solution):
+    """Length of the contact part on which the constraint binds, to half a mesh width at each end.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : StoredSolution
+
+    Returns
+    -------
+    float
+        Unit of length.
+    """
+    pieces = binding_pieces(problem.mesh, solution)
+    return float(np.hypot(*(pieces[:, 1] - pieces[:, 0]).T).sum())
+
+
+def free_length(problem, solution):
+    """Length of the contact part on which the constraint does not bind; see `contact_length`.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : StoredSolution
+
+    Returns
+    -------
+    float
+        Unit of length.
+    """
+    whole = find_boundary_trace(problem.mesh, "contact").length.sum()
+    return float(whole) - contact_length(problem, solution)
+
+
+def critical_point(problem, solution, which=1, coordinate="s"):
+    """Where the constraint starts or ends to bind, known to half a mesh width.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : StoredSolution
+    which : int
+        Counted from 1 along the contact part, which contact_line.csv lists in order.
+    coordinate : {"s", "x", "y"}
+        Arc length along the contact part, or a coordinate.
+
+    Returns
+    -------
+    float or None
+        Unit of length; None where there are fewer such points.
+    """
+    places = critical_places(problem.mesh, solution)
+    if which > places.shape[1]:
+        return None
+    return float(places["sxy".index(coordinate), which - 1])
+
+
+def flux(problem, solution, through="contact"):
+    """Integral of k du/dnu over all parts of the boundary with a label.
+
+    On the contact part it is the sum of the contact forces, on the Dirichlet part that of the
+    residuals. With the integrals of f and g the two sum up to zero, as they do for the exact
+    solution.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : StoredSolution
+    through : {"contact", "dirichlet"}
+
+    Returns
+    -------
+    float
+        Unit of k u.
+    """
+    return float(_FLUXES[through](problem, solution))
+
+
+def excess(problem, solution):
+    """Integral of k du/dnu less its threshold over the contact part: the sum of the multiplier.
+
+    Parameters
+    ----------
+    problem : Problem
+    solution : StoredSolution
+
+    Returns
+    -------
+    float
+        Unit of k u; without a threshold the flux through the contact part.
+    """
+    return float(solution.multiplier.sum())
+
+
+def _contact_flux(problem, solution):
+    threshold = 0.0 if problem.contact_load is None else problem.contact_load.sum()
+    return solution.multiplier.sum() + threshold
+
+
+def _dirichlet_flux(problem, solution):
+    return (problem.apply(solution.u) - problem.b)[problem.fixed].sum()
+
+
+_FLUXES = {"contact": _contact_flux, "dirichlet": _dirichlet_flux}

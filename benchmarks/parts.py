@@ -23,7 +23,8 @@ sys.path.insert(0, str(ROOT / "src"))
 from signorini import solve  # noqa: E402
 from signorini.fem.problem import discretize_on  # noqa: E402
 from signorini.solvers import descent, multigrid, search, select  # noqa: E402
-from signorini.solvers.hierarchy import Cycle, Level  # noqa: E402
+from signorini.solvers.cycle import Cycle  # noqa: E402
+from signorini.solvers.level import Level  # noqa: E402
 from signorini.work import counting  # noqa: E402
 from speed import product_seconds, refined_square, scene  # noqa: E402 (needs the path above)
 

@@ -207,13 +207,13 @@ def test_the_condensed_matrix_is_the_schur_complement(mesh_of, element):
         condensed.S, A[np.ix_(c, c)] - A[np.ix_(c, i)] @ inner[:, :-1], rtol=0, atol=1e-12 * scale
     )
     np.testing.assert_allclose(
-        condensed.reduce(problem.b),
+        condensed.condense(problem.b),
         problem.b[c] - A[np.ix_(c, i)] @ inner[:, -1],
         rtol=0,
         atol=1e-12 * scale,
     )
     w = np.random.default_rng(0).random(c.size)
-    u = condensed.extend(problem.b, w)
+    u = condensed.back_substitute(problem.b, w)
     np.testing.assert_array_equal(u[c], w)
     assert not u[problem.fixed].any()
     np.testing.assert_allclose((problem.A @ u - problem.b)[i], 0, rtol=0, atol=1e-12 * scale)

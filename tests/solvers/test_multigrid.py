@@ -20,8 +20,9 @@ from signorini.generated.problems import instance
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
+from signorini.solvers.cycle import Cycle
 from signorini.solvers.dot import dot
-from signorini.solvers.hierarchy import Cycle, build_hierarchy
+from signorini.solvers.hierarchy import build_hierarchy
 from signorini.work import counting
 
 

@@ -7,7 +7,7 @@ import pytest
 from signorini.commands.catalogue import CATALOGUE
 from signorini.commands.sources import sources
 
-STUDIES = ("The benchmark", "The sensitivity study", "The stability suite")
+STUDIES = ("The benchmark", "The sensitivity study", "The stability suite", "The theory study")
 OTHERS = [name for title, found in CATALOGUE.items() if title not in STUDIES for name in found]
 
 
@@ -23,6 +23,7 @@ MEASURING = {
     "benchmark": "benchmark point",
     "sensitivity": "sensitivity errors",
     "stability": "stability success",
+    "theory": "theory estimates",
 }
 
 

@@ -11,6 +11,7 @@ from signorini.fem.by_part import ByPart
 from signorini.fem.grid_lines import points_on_lines, weighted
 from signorini.fem.quadrature import interval_rule, triangle_rule
 from signorini.mesh.boundary import part_key
+from signorini.mesh.boundary_trace import outward_normals
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import triangle_areas
 
@@ -174,12 +175,6 @@ def _flux_at(mesh, t, ends, g, s, weights):
     length = np.hypot(*along)
     normal = ()
     if getattr(g, "needs_normal", False):
-        normal = _outward(along, mesh.points(t[3 - i - j]) - start, length)
+        normal = outward_normals(along, length, mesh.points(t[3 - i - j]) - start)
     points = (1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]
     return weights[:, None] * length * g(*points, *normal)
-
-
-def _outward(along, inward, length):
-    """Unit normal of facets with direction `along`, pointing away from `inward`; all (2, k)."""
-    normal = np.stack([along[1], -along[0]]) / length
-    return np.where((normal * inward).sum(axis=0) > 0.0, -normal, normal)

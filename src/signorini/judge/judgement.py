@@ -6,7 +6,7 @@ import numpy as np
 
 from signorini.fem.mirror import negated
 from signorini.judge.elimination import EXTENDED
-from signorini.solvers.found import LEAST_FORCE
+from signorini.solvers.route_result import LEAST_FORCE
 
 EPS = float(np.finfo(EXTENDED).eps)
 DOUBLE = float(np.finfo(float).eps)

@@ -9,7 +9,8 @@ from signorini.wording import nearest
 
 TABLE, SURFACE = "table", "surface"
 FIGURES = (SURFACE, *RATED)  # that can have a name
-TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory")  # by other files of LaTeX
+# Names that other files of LaTeX have.
+TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory")
 _PLAIN = re.compile(r"[\w.+@ /-]+")
 
 

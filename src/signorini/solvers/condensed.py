@@ -74,14 +74,14 @@ class Condensed:
         S = L[:, -self.count :].toarray() @ U[:, -self.count :].toarray()
         return 0.5 * (S + S.T)
 
-    def reduce(self, load):
+    def condense(self, load):
         """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,)."""
         rhs = load[self.order]
         split = len(rhs) - self.count
         rhs[split:] = 0.0
         return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
 
-    def extend(self, load, w, reduced=None):
+    def back_substitute(self, load, w, condensed_load=None):
         """The free dofs in equilibrium, with the contact dofs given; zero on the fixed ones.
 
         Parameters
@@ -90,26 +90,26 @@ class Condensed:
             Unit of the load.
         w : ndarray, shape (nc,) or (nc, k)
             The contact dofs, unit of u.
-        reduced : ndarray, shape (nc,) or (nc, k), optional
-            ``reduce(load)``, where it is known.
+        condensed_load : ndarray, shape (nc,) or (nc, k), optional
+            ``condense(load)``, where it is known.
 
         Returns
         -------
         ndarray, shape (ndof,) or (ndof, k)
             Unit of u.
         """
-        reduced = self.reduce(load) if reduced is None else reduced
+        condensed_load = self.condense(load) if condensed_load is None else condensed_load
         rhs = load[self.order]
         split = len(rhs) - self.count
-        rhs[split:] = self.S_sprung @ w + (load[self.contact] - reduced)
-        found = self.factors.solve(rhs)
-        missed = w - found[split:]
+        rhs[split:] = self.S_sprung @ w + (load[self.contact] - condensed_load)
+        x = self.factors.solve(rhs)
+        missed = w - x[split:]
         if largest(missed) > _MISSED * largest(w):
             # An ill-conditioned S misses w in its last digits, which a stiff neighbour would feel.
             rhs[:split], rhs[split:] = 0.0, self.S_sprung @ missed
-            found += self.factors.solve(rhs)
+            x += self.factors.solve(rhs)
         u = np.zeros((self.size, *load.shape[1:]))
-        u[self.order] = found
+        u[self.order] = x
         u[self.contact] = w
         return u
 

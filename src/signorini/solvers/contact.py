@@ -16,11 +16,9 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.work import count
 
-PATIENCE = (
-    5,
-    100,
-    np.inf,
-)  # exchanges of all, the worse half, or one, without fewer violations; measured
+_ALL, _HALF, _ONE = range(3)  # of the dofs with a wrong sign: what is exchanged at once
+# Exchanges of each block without fewer wrong signs, after which a smaller one is taken; measured.
+PATIENCE = (5, 100, np.inf)
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return
 
 
@@ -209,8 +207,10 @@ def _pivot(operator, load, weight, active, max_iterations, singular):
 
 
 class Exchange:
-    """Who changes sides: all violated dofs, the worse half, or the last; a stage without gain gives
-    way.
+    """Block pivoting: which of the dofs with a wrong sign change sides.
+
+    All of them; where that stops paying, the worse half; at last one, the last in their order
+    (Murty's rule, finite for any fixed order).
     """
 
     def __init__(self):
@@ -233,21 +233,26 @@ class Exchange:
         ndarray of int
             Their indices; at least one.
         """
-        violated, count, key = np.flatnonzero(wrong), np.count_nonzero(wrong), active.tobytes()
-        if count < self.fewest:
-            self.fewest, self.stage, self.seen = count, 0, set()
-        elif key in self.seen and self.stage == 2:
-            # Murty's rule never returns to an active set: the signs are round-off.
-            self.slack, self.seen = 4 * self.slack, set()
-        elif key in self.seen or len(self.seen) >= PATIENCE[self.stage]:
-            self.stage, self.seen = self.stage + 1, set()
-        self.seen.add(key)
-        if self.stage == 1:
+        violated = np.flatnonzero(wrong)
+        self._choose_block(len(violated), active.tobytes())
+        if self.block == _HALF:
             violated = violated[np.argsort(-depth[violated], kind="stable")]
-        exchanged = violated[-(count, (count + 1) // 2, 1)[self.stage] :]
-        self.steps[self.stage] += 1
+        size = {_ALL: len(violated), _HALF: (len(violated) + 1) // 2, _ONE: 1}[self.block]
+        exchanged = violated[-size:]
+        self.steps[self.block] += 1
         self.changes += len(exchanged)
         return exchanged
+
+    def _choose_block(self, count, active):
+        """Start anew where fewer signs are wrong than ever; else go on, and give way in time."""
+        if count < self.fewest:
+            self.fewest, self.block, self.seen = count, _ALL, set()
+        elif active in self.seen and self.block == _ONE:
+            # Murty's rule never returns to an active set: the signs are round-off.
+            self.slack, self.seen = 4 * self.slack, set()
+        elif active in self.seen or len(self.seen) >= PATIENCE[self.block]:
+            self.block, self.seen = self.block + 1, set()
+        self.seen.add(active)
 
 
 def _back_substitute(U, b, block=64):

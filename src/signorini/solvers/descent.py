@@ -6,7 +6,7 @@ import numpy as np
 
 from signorini.fem.residual import BELOW, EPS
 from signorini.solvers.dot import dot
-from signorini.solvers.found import ROUNDING
+from signorini.solvers.route_result import ROUNDING
 from signorini.solvers.solution import largest
 from signorini.work import count
 

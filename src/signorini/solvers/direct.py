@@ -15,7 +15,8 @@ from signorini.memory import check_memory
 from signorini.solvers.condensed import Condensed, why_singular
 from signorini.solvers.contact import DenseContact, Exchange, solve_contact
 from signorini.solvers.dot import dot
-from signorini.solvers.found import (
+from signorini.solvers.hierarchy import STRETCHED, causes, jumps
+from signorini.solvers.route_result import (
     NO_DIGIT,
     SAFETY,
     Errors,
@@ -26,7 +27,6 @@ from signorini.solvers.found import (
     to_close,
     wrong_signs,
 )
-from signorini.solvers.hierarchy import STRETCHED, causes, jumps
 from signorini.solvers.solution import largest
 
 _MAX_STEPS = 100
@@ -53,7 +53,7 @@ def solve_direct(problem, guess=None):
 
     Returns
     -------
-    Found
+    RouteResult
 
     Raises
     ------
@@ -120,7 +120,7 @@ class _Body:
         if self.operator is None:
             return np.zeros(0, dtype=bool), 0
         problem = self.problem
-        q = self.condensed.reduce(residual(problem.A, problem.b, u, self.sums))
+        q = self.condensed.condense(residual(problem.A, problem.b, u, self.sums))
         result = solve_contact(self.operator, q, guess=guess, singular=problem.fixed.size == 0)
         return result.active, result.iterations
 
@@ -196,21 +196,21 @@ class _Body:
         rate = _STUCK if waited else 2.0 * step / last
         return found, force, (rate * step, rate * change)
 
-    def displacement(self, load, active, reduced=None):
+    def displacement(self, load, active, condensed_load=None):
         """What a load does with the contact set held: the change of u, and the forces it leaves on
         contact dofs.
 
         `load` is of shape (ndof,), or (ndof, k) for k of them at once; so are what they do, and the
-        forces (nc, ...). `reduced` is what it is condensed to the contact dofs, where that is
+        forces (nc, ...). `condensed_load` is the load condensed to the contact dofs, if that is
         known.
         """
-        reduced = self.condensed.reduce(load) if reduced is None else reduced
-        w = np.zeros_like(reduced)
+        condensed_load = self.condensed.condense(load) if condensed_load is None else condensed_load
+        w = np.zeros_like(condensed_load)
         if not active.all():
-            w[~active] = self.operator.solve_free(~active, reduced[~active])
-        force = self.operator.S @ w - reduced if active.size else w
+            w[~active] = self.operator.solve_free(~active, condensed_load[~active])
+        force = self.operator.S @ w - condensed_load if active.size else w
         force[~active] = 0.0
-        return self.condensed.extend(load, w, reduced), force
+        return self.condensed.back_substitute(load, w, condensed_load), force
 
     def released(self, active, unsure):
         """What rounding does with unsure dofs of a contact set let go; None where there are none,
@@ -237,8 +237,8 @@ class _Body:
         signs = np.random.default_rng(0).random((u.size, 1 + _SAMPLES)) - 0.5
         signs[:, 0] = 1.0
         samples = np.copysign(rounding[:, None], signs)
-        reduced, self.sample = self.condensed.reduce(samples), samples[:, -1]
-        moved, pressed = self.displacement(samples, active, reduced)
+        condensed_load, self.sample = self.condensed.condense(samples), samples[:, -1]
+        moved, pressed = self.displacement(samples, active, condensed_load)
         largest_u = largest(moved[:, 1:])
         own = rounding[
             problem.contact[active]
@@ -249,7 +249,7 @@ class _Body:
         acting = np.max((fluxes + np.abs(problem.b))[problem.contact], initial=0.0)
         stiffness = self.condensed.S.diagonal()
         bounds = gaps + left[0], forces + left[1]
-        loads = np.abs(reduced[:, 0])
+        loads = np.abs(condensed_load[:, 0])
         return Errors(
             largest_u + left[0], largest_force + left[1], *bounds, loads, stiffness, acting
         )

@@ -15,8 +15,8 @@ from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
 from signorini.solvers.contact import Exchange, solve_contact
-from signorini.solvers.found import Errors, better, proved, size_of, to_close, wrong_signs
 from signorini.solvers.line_elimination import Edges, Vertices, strip_of
+from signorini.solvers.route_result import Errors, better, proved, size_of, to_close, wrong_signs
 from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
 from signorini.work import count
@@ -57,7 +57,7 @@ def solve_fourier(problem, guess=None):
 
     Returns
     -------
-    Found
+    RouteResult
         No matrix entry is rounded and no pivot cancels, so that the last correction is as large as
         any error left.
 
@@ -68,7 +68,7 @@ def solve_fourier(problem, guess=None):
     """
     route = _ELIMINATIONS[problem.element](problem.grid, strip_of(problem.grid))
     line = _Line(guess, singular=problem.fixed.size == 0)
-    u = _displacement(problem, route, _shifted_load(problem), line.settle)
+    u = _displacement(problem, route, _shifted_load(problem), line.find_gap)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] += problem.lower
     rule, first = Exchange(), None
@@ -96,7 +96,7 @@ def _refined(problem, route, line, u):
     last = np.inf
     for _ in range(_CORRECTIONS):
         before = line.force
-        correction = _displacement(problem, route, _residual(problem, u), line.hold)
+        correction = _displacement(problem, route, _residual(problem, u), line.correct_gap)
         gap = (u[problem.contact] - problem.lower) + correction[
             problem.contact
         ]  # before u rounds it off
@@ -132,14 +132,14 @@ class _Line:
         self.active, self.force, self.stiffness = np.zeros(0, dtype=bool), np.zeros(0), np.zeros(0)
         self.iterations = 0
 
-    def settle(self, operator, q):
+    def find_gap(self, operator, q):
         """The gap under the condensed load q, shape (nc,)."""
         result = solve_contact(operator, q, guess=self.guess, singular=self.singular)
         self.active, self.iterations = result.active, result.iterations
         self.force, self.stiffness = self._force(operator, result.w, q), operator.diagonal()
         return result.w
 
-    def hold(self, operator, q):
+    def correct_gap(self, operator, q):
         """The change of the gap under a further load, none in the contact set."""
         w, free = np.zeros(q.size), ~self.active
         if free.any():
@@ -158,18 +158,18 @@ class _Line:
         self.iterations += 1
 
 
-def _displacement(problem, route, load, settle):
+def _displacement(problem, route, load, gap_under):
     """What a load does: u, zero on the fixed dofs, whose gap on the contact line is
-    ``settle(operator, q)``.
+    ``gap_under(operator, q)``.
     """
-    rows = route.reduce(load)
+    rows = route.condense(load)
     if route.basis.weighted:
         rows /= route.basis.mass
     count(factorisations=1)
     factors, symbol = route.eliminate(route.basis.forward(rows, out=rows))
     gap = np.zeros(0)
     if problem.contact.size:
-        gap = settle(
+        gap = gap_under(
             contact_operator(route.basis, symbol), route.basis.mass * route.basis.backward(rows[0])
         )
         rows[0] = route.basis.forward(gap)
@@ -178,7 +178,7 @@ def _displacement(problem, route, load, settle):
     for j in range(1, rows.shape[0]):
         rows[j] += factors[j] * rows[j - 1]
     del factors
-    u = route.extend(route.basis.backward(rows, out=rows), load)
+    u = route.back_substitute(route.basis.backward(rows, out=rows), load)
     u[problem.fixed] = 0.0
     u[problem.contact] = gap
     return u

@@ -125,12 +125,12 @@ class Vertices(Rows):
     def _shape(self):
         return self.grid.ny + 1, self.grid.nx + 1
 
-    def reduce(self, load):
+    def condense(self, load):
         return np.array(
             self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C"
         )
 
-    def extend(self, rows, load):
+    def back_substitute(self, rows, load):
         """All dofs, from those of the rows.
 
         Parameters
@@ -200,7 +200,7 @@ class Edges(Rows):
                 along_x,
             )
 
-    def reduce(self, load):
+    def condense(self, load):
         rows = np.empty((self.strip.away + self.line, self.strip.along))
         cells = self.strip.back(rows[self.line :])
         if self.line:
@@ -211,7 +211,7 @@ class Edges(Rows):
             cells[first:last] = d + h[:-1] + h[1:] + v[:, :-1] + v[:, 1:]
         return rows
 
-    def extend(self, rows, load):
+    def back_substitute(self, rows, load):
         """All dofs, from those of the rows: the edges between follow from their own equations.
 
         Parameters

@@ -18,8 +18,9 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import check_memory
-from signorini.solvers.found import NO_DIGIT, Errors, better, to_close, wrong_signs
-from signorini.solvers.hierarchy import HALF, build_hierarchy, causes
+from signorini.solvers.hierarchy import build_hierarchy, causes
+from signorini.solvers.level import HALF
+from signorini.solvers.route_result import NO_DIGIT, Errors, better, to_close, wrong_signs
 from signorini.solvers.search import Search
 from signorini.work import counting
 
@@ -46,7 +47,7 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
 
     Returns
     -------
-    Found
+    RouteResult
     """
     check_memory(
         problem.mesh.number_of_triangles,

@@ -9,10 +9,10 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.contact import Exchange
+from signorini.solvers.cycle import preconditioner
 from signorini.solvers.descent import Descent, solved
 from signorini.solvers.dot import dot
-from signorini.solvers.found import SAFETY, Errors, Released, bound_of, proved
-from signorini.solvers.hierarchy import preconditioner
+from signorini.solvers.route_result import SAFETY, Errors, Released, bound_of, proved
 from signorini.solvers.solution import largest
 from signorini.work import count
 
@@ -73,7 +73,7 @@ class Search:
         no sign is wrong.
         """
         while True:
-            wrong = self._settle(tolerance)
+            wrong = self._solve_on_set(tolerance)
             if not wrong.any():
                 return
             self.exchange(wrong)
@@ -96,7 +96,7 @@ class Search:
         )
         self.active[self.rule.choose(self.active, wrong, depth)] ^= True
 
-    def _settle(self, tolerance):
+    def _solve_on_set(self, tolerance):
         """Iterate with the contact set held, until converged or until signs are wrong beyond the
         error; which ones.
         """

@@ -10,7 +10,7 @@ from signorini.fem.mirror import mirrored
 from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
-from signorini.solvers.found import NO_DIGIT, Found, size_of
+from signorini.solvers.route_result import NO_DIGIT, RouteResult, size_of
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a
@@ -84,21 +84,21 @@ def _solved(problem, method, reason, guess):
     scaled = problem.scaled(-exponent)
     if method != "fourier":
         check_symmetric(scaled.A)
-    shifted, constant, (found, method, reason) = _counted(scaled, method, reason, guess)
-    u = found.u
-    active, c = found.active, shifted.contact
+    shifted, constant, (result, method, reason) = _counted(scaled, method, reason, guess)
+    u = result.u
+    active, c = result.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
-    accuracy = _accuracy(found, constant)
+    accuracy = _accuracy(result, constant)
     if not accuracy <= NO_DIGIT:
         raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
-    status = _status(residual, accuracy, found)
+    status = _status(residual, accuracy, result)
     if status == "failed":
         raise SolverError(
             f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
             f"{_causes(problem)}, or try another solver.method"
         )
-    multiplier = np.where(active, np.maximum(found.multiplier, 0.0), 0.0)
+    multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
         u = _with_constant(problem, deviation, np.ldexp(constant, exponent), active)
@@ -112,10 +112,10 @@ def _solved(problem, method, reason, guess):
         active=active,
         residual=residual,
         accuracy=accuracy,
-        multiplier_accuracy=found.multiplier_accuracy,
-        undecided=found.undecided,
+        multiplier_accuracy=result.multiplier_accuracy,
+        undecided=result.undecided,
         status=status,
-        iterations=found.iterations,
+        iterations=result.iterations,
         method=method,
         reason=reason,
         constant=float(np.ldexp(constant, exponent)),
@@ -125,7 +125,7 @@ def _solved(problem, method, reason, guess):
 
 
 def _counted(problem, method, reason, guess):
-    """The problem counted from a constant, that constant, and what is found for it.
+    """The problem counted from a constant, that constant, and the result for it.
 
     Where data do not show that all of the body stays near a constant, far from its obstacle, a
     first solution does.
@@ -137,14 +137,14 @@ def _counted(problem, method, reason, guess):
     shifted = problem.shifted(constant)
     far = _constant(problem, near=[problem.fixed_values])
     try:
-        found = _find(shifted, method, reason, guess)
-        varies = np.ptp(found[0].u) > _NEARLY_CONSTANT * largest(found[0].u)
+        result = _find(shifted, method, reason, guess)
+        varies = np.ptp(result[0].u) > _NEARLY_CONSTANT * largest(result[0].u)
     except SolverError:
         if constant or not far:
             raise
         varies = False
     if constant or varies or not far:
-        return shifted, constant, found
+        return shifted, constant, result
     shifted = problem.shifted(far)
     return shifted, far, _find(shifted, method, reason, None)
 
@@ -161,7 +161,7 @@ def _at_rest(problem):
     if loaded or not (problem.grid is not None or problem.mesh.in_one_part):
         return None
     touching = problem.lower == values[0]
-    return Found(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
+    return RouteResult(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
 
 
 def _find(problem, method, reason, guess):
@@ -182,7 +182,7 @@ def _find(problem, method, reason, guess):
 def _by_route(problem, method, guess):
     module, function = METHODS[method]
     try:
-        return Found(*getattr(importlib.import_module(module), function)(problem, guess))
+        return RouteResult(*getattr(importlib.import_module(module), function)(problem, guess))
     except (np.linalg.LinAlgError, FloatingPointError) as error:
         raise SolverError(f"domain: {method}: {error}; {_causes(problem)}") from error
 
@@ -236,25 +236,25 @@ def _why_not(method, problem):
     return room.why_not(problem) if hasattr(room, "why_not") else None
 
 
-def _status(residual, accuracy, found):
+def _status(residual, accuracy, result):
     """That of a solution, with a margin where the contact set is not certain."""
-    margin = _MARGIN if found.undecided.any() else 1.0
-    return status_of(residual, margin * accuracy, found.multiplier_accuracy)
+    margin = _MARGIN if result.undecided.any() else 1.0
+    return status_of(residual, margin * accuracy, result.multiplier_accuracy)
 
 
-def _accuracy(found, constant):
+def _accuracy(result, constant):
     """That of u itself, whose last bit is relative to the constant, too.
 
     It is relative to the variation of u; or to its size, where u is a constant but for that last
     bit.
     """
     variation, size = (
-        size_of(found.u),
-        max(abs(np.min(found.u) + constant), abs(np.max(found.u) + constant)),
+        size_of(result.u),
+        max(abs(np.min(result.u) + constant), abs(np.max(result.u) + constant)),
     )
-    last_bit = float(EPS * size) if found.accuracy or np.ptp(found.u) else 0.0
+    last_bit = float(EPS * size) if result.accuracy or np.ptp(result.u) else 0.0
     relative_to = variation if variation > 4.0 * last_bit else size
-    return float((found.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
+    return float((result.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
 
 
 def _with_constant(problem, deviation, constant, active):

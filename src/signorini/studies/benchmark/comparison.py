@@ -8,11 +8,11 @@ from functools import partial
 
 import numpy as np
 
-from signorini.exceptions import SolverError
 from signorini.fem.problem import discretize_on
 from signorini.rivals import RIVALS
 from signorini.rivals.worker import Worker
-from signorini.solvers import METHODS, kkt_residual, solve
+from signorini.solvers import kkt_residual, solve
+from signorini.solvers.attempts import attempts
 from signorini.solvers.solution import status_of
 from signorini.studies.benchmark.columns import TOLERANCE
 from signorini.studies.benchmark.point import difference, spread
@@ -63,7 +63,7 @@ def compare(name, domain, statement, element, levels, limit):
 def _level(rival, problem, limit):
     problem.A  # noqa: B018 (assembled before any clock starts)
     auto = solve(problem)
-    methods = [method for method in METHODS if _applies(problem, method)]
+    methods = [tried.method for tried in attempts(problem) if tried.solution is not None]
     theirs, ours = [], {method: [] for method in methods}
     while len(theirs) < REPEATS:
         answer = rival.solve(problem, TOLERANCE, limit)
@@ -77,14 +77,6 @@ def _level(rival, problem, limit):
     row = {"dofs": problem.free.size, **_judged(problem, answer, auto)}
     row |= spread("seconds", theirs)
     return [row | _against(theirs, ours[method], method, auto.method) for method in methods]
-
-
-def _applies(problem, method):
-    try:
-        solve(problem, method)
-    except SolverError:
-        return False
-    return True
 
 
 def _judged(problem, answer, ours):

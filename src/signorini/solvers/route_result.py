@@ -18,7 +18,7 @@ ROUNDING = 64.0  # roundings of the largest gap and force, below which a sign ma
 NO_DIGIT = 0.1  # error of u, relative to its variation, from which there is no solution to return
 
 
-class Found(NamedTuple):
+class RouteResult(NamedTuple):
     """A route's answer with what it knows of its errors.
 
     Attributes
@@ -173,7 +173,7 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     Parameters
     ----------
     u, active, iterations
-        See `Found`.
+        See `RouteResult`.
     gap, force : ndarray, shape (nc,)
         Of the contact dofs; unit of u, and of the load.
     errors : Errors
@@ -183,7 +183,7 @@ def proved(u, active, iterations, gap, force, errors, released=None):
 
     Returns
     -------
-    Found
+    RouteResult
     """
     released = released or Released(0.0, 0.0, 0.0)
     undecided = np.where(
@@ -202,7 +202,7 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     accuracy = _share(errors.u + moved, variation)
     largest = _largest(force, active & ~undecided)
     largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting
-    return Found(
+    return RouteResult(
         u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided
     )
 
@@ -215,12 +215,12 @@ def better(first, second):
 
     Parameters
     ----------
-    first : Found or None
-    second : Found
+    first : RouteResult or None
+    second : RouteResult
 
     Returns
     -------
-    Found
+    RouteResult
     """
     if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
         return second

@@ -29,24 +29,53 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
         To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off
         alone, or ``"reference"`` for the truth itself.
     """
-    from signorini.errors.reference import ReferenceErrors
-
     mesh, coefficient = domain.level(truth.n), read_coefficient(coefficient)
-    weight, rounding = _weight(mesh, coefficient, norms), RoundOff.of(truth)
-    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
-    noise = round_off_bounds(mesh, rounding, norms, weight)
+    measure = reference_measure(mesh, truth, norms, quadrature, _weight(mesh, coefficient, norms))
 
     def errors_of(solution):
         mesh = domain.level(solution.n)
+        same = (solution.element, solution.n) == (truth.element, truth.n)
+        return measure(mesh, solution, _weight(mesh, coefficient, norms), same)
+
+    return errors_of
+
+
+def reference_measure(mesh, truth, norms, quadrature="exact", weight=None):
+    """Errors against a reference, by the meshes themselves.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+        The reference's.
+    truth : StoredSolution
+    norms, quadrature
+        See `against_reference`.
+    weight : ndarray, shape (nt,), optional
+        The diffusion coefficient on the reference's mesh.
+
+    Returns
+    -------
+    callable
+        From a mesh that the reference's was refined from, a `StoredSolution` on it, the diffusion
+        coefficient on it, and whether it is the reference itself, to a dict as in
+        `against_reference`.
+    """
+    from signorini.errors.reference import ReferenceErrors
+
+    rounding = RoundOff.of(truth)
+    errors = ReferenceErrors(mesh, truth.element, truth.u, norms, quadrature, weight)
+    noise = round_off_bounds(mesh, rounding, norms, weight)
+
+    def errors_of(mesh, solution, weight=None, same=False):
         both = rounding.together_with(RoundOff.of(solution))
-        bounds = round_off_bounds(mesh, both, norms, _weight(mesh, coefficient, norms))
+        bounds = round_off_bounds(mesh, both, norms, weight)
 
         def unresolved(doubtful):
             parts = errors.unresolved(mesh, doubtful)
             return {norm: part if part > noise[norm] else 0.0 for norm, part in parts.items()}
 
         result = errors.of(mesh, solution.element, solution.u)
-        if (solution.element, solution.n) == (truth.element, truth.n):
+        if same:
             return result | {"floor": REFERENCE}
         return _with_round_off(result, bounds, unresolved)
 
@@ -71,17 +100,38 @@ def against_exact(statement, domain, norms):
         From a `StoredSolution` to a dict as in `against_reference`. It raises `SceneError` where
         critical points are asked for and none of the exact ones lies on the contact part.
     """
+    measure, coefficient = exact_measure(statement.exact, norms), statement.data.coefficient
+
+    def errors_of(solution):
+        mesh = domain.level(solution.n)
+        return measure(mesh, solution, _weight(mesh, coefficient, norms))
+
+    return errors_of
+
+
+def exact_measure(exact, norms):
+    """Errors against an exact solution, by the mesh itself.
+
+    Parameters
+    ----------
+    exact : ExactSolution
+    norms : sequence of str
+        Of `norms.RATED`.
+
+    Returns
+    -------
+    callable
+        From a mesh, a `StoredSolution` on it, and the diffusion coefficient on it, None for 1, to a
+        dict as in `against_exact`, also for what is raised.
+    """
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
     from signorini.errors.unresolved import unresolved
 
-    exact, coefficient = statement.exact, statement.data.coefficient
     errors = ExactErrors(exact, [norm for norm in norms if norm not in CONTACT])
     on_contact = [norm for norm in norms if norm in CONTACT]
 
-    def errors_of(solution):
-        mesh = domain.level(solution.n)
-        weight = _weight(mesh, coefficient, norms)
+    def errors_of(mesh, solution, weight=None):
         result = errors.of(mesh, solution.element, solution.u, weight)
         if on_contact:
             contact = contact_errors(mesh, solution.element, solution, exact)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from signorini.exact.solution import ExactSolution
 from signorini.exceptions import SceneError
+from signorini.fem.function import Function
 from signorini.formula import Formula
 
 
@@ -80,6 +81,10 @@ class Diffused(ExactSolution):
         -------
         ndarray
         """
+        if isinstance(self.coefficient, Function):
+            raise SceneError(
+                "f: missing; the load under a coefficient that is a function is not derived"
+            )
         k, kx, ky = self.coefficient.value_and_gradient(x, y)
         load = k * self.u.load(x, y)
         # Where k is constant on pieces, which is common, the gradient of u is not needed.
@@ -111,8 +116,8 @@ def with_coefficient(exact, coefficient):
     Parameters
     ----------
     exact : ExactSolution
-    coefficient : Formula or None
-        Diffusion coefficient k; None for 1.
+    coefficient : Formula, Function or None
+        Diffusion coefficient k; None for 1. The load under a `Function` is not known.
 
     Returns
     -------
@@ -138,7 +143,7 @@ def with_coefficient(exact, coefficient):
     """
     if coefficient is None:
         return exact
-    if not isinstance(coefficient, Formula):
+    if not callable(coefficient):
         raise SceneError(
             "data.coefficient: an exact truth needs a formula in x and y, not a section"
         )

@@ -10,7 +10,7 @@ import skfem
 from signorini.exceptions import MeshError
 from signorini.mesh.domain import make_domain
 from signorini.mesh.facets import pair_keys
-from signorini.mesh.given import from_arrays, from_meshio, from_skfem
+from signorini.mesh.given import from_arrays, from_meshio, from_skfem, with_names
 from signorini.mesh.imported import import_mesh
 from signorini.mesh.labels import labelled
 
@@ -47,7 +47,9 @@ def test_scikit_fem_keeps_its_numbers_and_names():
     assert np.array_equal(ours.regions["right"], np.sort(theirs.subdomains["right"]))
 
 
-@pytest.mark.parametrize("mesh", [from_arrays(P, T), from_skfem(skfem.MeshTri(P, T))])
+@pytest.mark.parametrize(
+    "mesh", [from_arrays(P, T), with_names(from_skfem(skfem.MeshTri(P, T)), {}, {})]
+)
 def test_a_rectangle_without_names_has_those_of_its_sides(mesh):
     assert list(mesh.parts) == ["bottom", "right", "top", "left"]
     assert np.all(P[1, mesh.parts["top"]] == 1.0)

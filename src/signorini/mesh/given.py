@@ -3,6 +3,8 @@
 Each becomes a `NamedMesh`, checked like a mesh from a file.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from signorini.exceptions import MeshError
@@ -35,7 +37,7 @@ def from_arrays(p, t, boundaries=None, subdomains=None):
     Returns
     -------
     NamedMesh
-        Without `boundaries` its parts are those of `labels.with_sides` that are not empty.
+        Besides `boundaries` its parts are those of `labels.with_sides` that are not empty.
 
     Raises
     ------
@@ -51,7 +53,26 @@ def from_arrays(p, t, boundaries=None, subdomains=None):
     [[0], [1]]
     """
     p, t, vertex_map = check_triangulation(_array("p", p), _array("t", t))
-    mesh = NamedMesh(p, t)
+    return _named(NamedMesh(p, t), boundaries, subdomains, vertex_map)
+
+
+def with_names(mesh, boundaries, subdomains):
+    """A mesh with further parts and subdomains; without parts of its own, also with its sides.
+
+    Parameters
+    ----------
+    mesh : NamedMesh
+    boundaries, subdomains : dict
+        See `from_arrays`, also for what is raised; vertices and triangles by the numbers of `mesh`.
+
+    Returns
+    -------
+    NamedMesh
+    """
+    return _named(mesh, boundaries, subdomains, np.arange(mesh.p.shape[1]))
+
+
+def _named(mesh, boundaries, subdomains, vertex_map):
     parts = {
         str(name): _part(mesh, f"boundaries.{name}", given, vertex_map)
         for name, given in (boundaries or {}).items()
@@ -60,7 +81,8 @@ def from_arrays(p, t, boundaries=None, subdomains=None):
         str(name): _region(mesh, f"subdomains.{name}", given)
         for name, given in (subdomains or {}).items()
     }
-    return _with_parts(NamedMesh(p, t, parts, regions))
+    own = mesh.parts or _sides(mesh)
+    return replace(mesh, parts=own | parts, regions=mesh.regions | regions)
 
 
 def from_skfem(mesh):
@@ -73,8 +95,7 @@ def from_skfem(mesh):
     Returns
     -------
     NamedMesh
-        Vertices and triangles are numbered alike. Without named boundaries its parts are those of
-        `labels.with_sides` that are not empty.
+        Vertices and triangles are numbered alike.
 
     Raises
     ------
@@ -93,8 +114,11 @@ def from_skfem(mesh):
             f"mesh: the cells of a {kind} are no triangles of three vertices; "
             "give a skfem.MeshTri, for instance by to_meshtri()"
         )
-    ends = {name: mesh.facets[:, facets] for name, facets in (mesh.boundaries or {}).items()}
-    return from_arrays(mesh.p, mesh.t, ends, mesh.subdomains)
+    p, t, vertex_map = check_triangulation(mesh.p, mesh.t)
+    boundaries, subdomains = mesh.boundaries or {}, mesh.subdomains or {}
+    parts = {name: vertex_map[mesh.facets[:, facets]] for name, facets in boundaries.items()}
+    regions = {name: np.unique(cells) for name, cells in subdomains.items()}
+    return NamedMesh(p, t, parts, regions)
 
 
 def from_meshio(mesh):
@@ -120,16 +144,13 @@ def from_meshio(mesh):
         raw = arrays_of(*read_meshio(mesh))
     except MeshError as error:
         raise MeshError(f"mesh: {error}") from None
-    return _with_parts(named_mesh("mesh", raw))
+    return named_mesh("mesh", raw)
 
 
-def _with_parts(mesh):
-    """The mesh itself where its boundary has names; else with those of its sides."""
-    if mesh.parts:
-        return mesh
-    sided = with_sides(mesh)
-    sides = {name: ends for name, ends in sided.parts.items() if ends.size}
-    return NamedMesh(mesh.p, mesh.t, sides, mesh.regions, mesh.source, mesh.note)
+def _sides(mesh):
+    """The facets on the sides of the bounding box, by their names."""
+    parts = with_sides(mesh).parts
+    return {name: ends for name, ends in parts.items() if ends.size}
 
 
 def _array(name, values):

@@ -91,14 +91,25 @@ def scene_of_mapping(mapping, name, folder):
     SceneError, FormulaError, MeshError
         As `load_scene`.
     """
+    scene = read_mapping(mapping, name, folder)
+    scene.check()
+    return scene
+
+
+def read_mapping(mapping, name, folder):
+    """As `Scene.from_dict`, but checks only what the mapping alone shows; see `read_scene`.
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        As `load_scene`.
+    """
     if not isinstance(mapping, dict):
         raise SceneError(
             f"{name}: a {type(mapping).__name__} is no mapping; give the sections of a scene"
         )
     check_name(name)
-    scene = _validated_scene(plain(mapping), name, Path(folder, name))
-    scene.check()
-    return scene
+    return _validated_scene(plain(mapping), name, Path(folder, name))
 
 
 def plain(value):

@@ -1,0 +1,172 @@
+"""Exact solutions that a program knows: functions with their gradients, formulas, families."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from signorini.api.arguments import described
+from signorini.api.types import Floats
+from signorini.exact import FAMILIES, ExactSolution, FunctionSolution, Gradient, read_exact
+from signorini.exceptions import FormulaError, SceneError
+from signorini.fem.function import Function
+
+_REMEDY = (
+    "give a formula as text, the name of a family, or exact_solution(u, gradient) "
+    "of functions of x and y"
+)
+_STEP = 1e-6  # of a difference, relative to the extent of the points
+_OFF = 1e-3  # by which a gradient may differ from it, relative to the largest
+Points = Sequence[Sequence[float]]
+
+
+def exact_solution(
+    u: str | Callable[..., Any],
+    gradient: Any = None,
+    critical_points: Points = (),
+    singular_points: Points = (),
+    **parameters: float | str,
+) -> ExactSolution:
+    """An exact solution of a Signorini problem.
+
+    Parameters
+    ----------
+    u : str or callable
+        A formula in x and y, which is differentiated exactly; or the name of a family, see
+        config/README.md; or a function of the arrays x and y.
+    gradient : callable or pair of callables, optional
+        Of a function: du/dx and du/dy, by one function of x and y or by two.
+    critical_points : sequence of (float, float), optional
+        Where the constraint starts to bind on the contact part; the norm of that name needs them.
+    singular_points : sequence of (float, float), optional
+        Where derivatives are unbounded: quadrature is refined there. By default the critical points.
+    **parameters
+        Of a family.
+
+    Returns
+    -------
+    ExactSolution
+
+    Raises
+    ------
+    SceneError, FormulaError
+        Naming the argument, its value and the remedy.
+
+    Examples
+    --------
+    >>> punch = exact_solution("punch", half_width=0.5)
+    >>> float(punch.flux(0.0, 0.0, 0.0, -1.0))
+    0.5
+    >>> plane = exact_solution(lambda x, y: x, gradient=lambda x, y: (1.0, 0.0))
+    >>> float(plane.value(2.0, 3.0))
+    2.0
+    """
+    critical = _points(critical_points, "critical_points")
+    singular = _points(singular_points, "singular_points") or critical
+    if callable(u):
+        _refuse(parameters, "parameters", "a function")
+        return FunctionSolution(_function(u), _gradient(gradient), critical, singular)
+    if gradient is not None:
+        raise SceneError("gradient: not needed, that of a formula or family is derived; drop it")
+    if not isinstance(u, str):
+        raise SceneError(f"exact: {described(u)} is no exact solution; {_REMEDY}")
+    if u in FAMILIES:
+        return read_exact({"family": u, "parameters": parameters}, field="exact")
+    _refuse(parameters, "parameters", "a formula")
+    points = {"critical_points": critical, "singular_points": singular}
+    return read_exact({"u": u} | points, field="exact")
+
+
+def read_exact_solution(value: Any) -> ExactSolution:
+    """Whatever stands for an exact solution, as one.
+
+    Parameters
+    ----------
+    value : ExactSolution, str, dict, or pair (u, gradient)
+        A dict is the section ``truth`` of a scene.
+
+    Returns
+    -------
+    ExactSolution
+
+    Raises
+    ------
+    SceneError, FormulaError
+        As `exact_solution`.
+    """
+    if isinstance(value, ExactSolution):
+        return value
+    if isinstance(value, Mapping):
+        return read_exact(dict(value), field="exact")
+    if isinstance(value, tuple | list) and len(value) == 2:
+        return exact_solution(*value)
+    return exact_solution(value)
+
+
+def check_gradient(exact: ExactSolution, points: Floats) -> None:
+    """Hold the gradient that a program gives against differences of u.
+
+    Parameters
+    ----------
+    exact : ExactSolution
+        Only a `FunctionSolution` is looked at.
+    points : ndarray, shape (2, k)
+        Inside the domain, unit of length.
+
+    Raises
+    ------
+    SceneError
+        If it is off at more than half of them: kinks and singular points are few.
+    """
+    if not isinstance(exact, FunctionSolution):
+        return
+    step = _STEP * float(np.ptp(points, axis=1).max())
+    (x, y), gradient = points, np.stack(exact.gradient(*points))
+    along_x = exact.value(x + step, y) - exact.value(x - step, y)
+    along_y = exact.value(x, y + step) - exact.value(x, y - step)
+    differences = np.stack([along_x, along_y]) / (2.0 * step)
+    size = float(np.max(np.abs(differences), initial=0.0))
+    off = np.abs(gradient - differences).max(axis=0) > _OFF * size
+    if 2 * off.sum() > off.size:
+        k = int(np.argmax(off))
+        given, found = gradient[:, k], differences[:, k]
+        raise SceneError(
+            f"exact.gradient: ({given[0]:.4g}, {given[1]:.4g}) at ({x[k]:.4g}, {y[k]:.4g}), where "
+            f"differences of u give ({found[0]:.4g}, {found[1]:.4g}); give du/dx and du/dy"
+        )
+
+
+def _function(u: Callable[..., Any]) -> Function:
+    return u if isinstance(u, Function) else Function(u, "exact")
+
+
+def _gradient(gradient: Any) -> Gradient:
+    pair = isinstance(gradient, tuple | list) and len(gradient) == 2
+    if callable(gradient) or (pair and all(map(callable, gradient))):
+        return Gradient(gradient, "exact.gradient")
+    given = "missing" if gradient is None else f"{described(gradient)} is none"
+    raise SceneError(
+        f"exact.gradient: {given}; beside a function u give one function of x and y that returns "
+        "du/dx and du/dy, or a pair of functions"
+    )
+
+
+def _refuse(parameters: Mapping[str, Any], field: str, what: str) -> None:
+    if parameters:
+        raise SceneError(
+            f"{field}: {what} has none, but {', '.join(parameters)} is given; "
+            f"only families have: {', '.join(FAMILIES)}"
+        )
+
+
+def _points(points: Points, field: str) -> tuple[tuple[float, float], ...]:
+    """Points as pairs of numbers."""
+    try:
+        pairs = np.asarray(points, dtype=float)
+    except (TypeError, ValueError):
+        pairs = np.zeros(())
+    if pairs.size == 0 and pairs.ndim:
+        return ()
+    if pairs.ndim != 2 or pairs.shape[1] != 2 or not np.isfinite(pairs).all():
+        raise FormulaError(f"{field}: {described(points)} is no list of points; give [(x, y), ...]")
+    return tuple((float(x), float(y)) for x, y in pairs)

@@ -11,7 +11,7 @@ run := .venv/bin/python -m
 help:
 	@echo 'make paper         build every table and figure of the paper, check them, and typeset results/paper/paper.pdf'
 	@echo 'make test          run all tests'
-	@echo 'make lint          check format and style of Python and Snakemake files'
+	@echo 'make lint          check format, style and types of Python, and Snakemake files'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make studies       run the four studies, up to an hour, and keep what they measured in docs/studies'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
@@ -28,6 +28,7 @@ test: .venv/ready
 lint: .venv/ready
 	$(run) ruff check .
 	$(run) ruff format --check .
+	$(run) mypy
 	$(run) snakefmt --check Snakefile workflow
 	.venv/bin/python .ci/lint_workflow.py
 

@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).parents[1] / "src/signorini"
 FLOORS = (
     *("exceptions", "wording", "work", "chunks", "memory", "storage"),
     *("formula", "mesh", "fem", "exact", "solvers", "errors", "scene"),
-    *("judge", "generated", "rivals", "open_choices", "report", "publication", "figures"),
+    *("judge", "generated", "rivals", "open_choices", "report", "publication", "figures", "api"),
     *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability", "studies.theory"),
     *("commands", "__main__"),
 )

@@ -2,27 +2,40 @@
 inequality.
 
 >>> import signorini
->>> scene = signorini.load_scene("config/scenes/paper.yaml")
->>> problem = signorini.discretize(scene, "CR", 16)
->>> signorini.solve(problem).status
-'solved'
+>>> mesh = signorini.rectangle(16)
+>>> problem = signorini.problem(
+...     mesh, "CR", f="2*pi*sin(2*pi*x)", dirichlet={"top": 0}, contact="bottom"
+... )
+>>> solution = signorini.solve(problem)
+>>> solution.status, solution.critical_points.tolist()
+('solved', [[0.6875], [0.0]])
+
+docs/python.md leads through it. Problems in files are scenes, see `load_scene`.
 """
 
 import importlib
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Public name -> its room; a room is entered when first asked for, so that importing signorini costs
-# nothing.
+# nothing. Type checkers read `__init__.pyi`.
 _ROOMS = {
-    "SignoriniError": "exceptions",
-    "Scene": "scene.scene",
-    "load_scene": "scene.read",
+    "Mesh": "api.meshes",
     "Problem": "fem.problem",
+    "Scene": "scene.scene",
+    "SignoriniError": "exceptions",
+    "Solution": "api.solution",
+    "convergence": "api.convergence",
     "discretize": "fem.problem",
-    "Solution": "solvers",
-    "solve": "solvers",
+    "exact_solution": "api.exact",
     "kkt_residual": "solvers",
+    "load_scene": "scene.read",
+    "polygon": "api.meshes",
+    "problem": "api.problem",
+    "rates": "api.convergence",
+    "rectangle": "api.meshes",
+    "solve": "api.solution",
+    "triangulation": "api.meshes",
 }
 
 __all__ = sorted(_ROOMS)

@@ -97,7 +97,7 @@ def test_a_group_lists_its_parts(capsys):
 
 
 def test_the_version(capsys):
-    assert call(capsys, "--version") == (0, "signorini 0.1.0\n", "")
+    assert call(capsys, "--version") == (0, "signorini 0.2.0\n", "")
 
 
 def test_python_runs_it_as_a_module():

@@ -5,11 +5,19 @@ from typing import Any
 
 import numpy as np
 
-from signorini.api.arguments import described
-from signorini.api.types import Floats
-from signorini.exact import FAMILIES, ExactSolution, FunctionSolution, Gradient, read_exact
+from signorini.api.arguments import described, read_datum
+from signorini.api.types import Datum, Floats
+from signorini.exact import (
+    FAMILIES,
+    ExactSolution,
+    FormulaSolution,
+    FunctionSolution,
+    Gradient,
+    read_exact,
+)
 from signorini.exceptions import FormulaError, SceneError
 from signorini.fem.function import Function
+from signorini.formula import Formula
 
 _REMEDY = (
     "give a formula as text, the name of a family, or exact_solution(u, gradient) "
@@ -25,6 +33,7 @@ def exact_solution(
     gradient: Any = None,
     critical_points: Points = (),
     singular_points: Points = (),
+    multiplier: Datum | None = None,
     **parameters: float | str,
 ) -> ExactSolution:
     """An exact solution of a Signorini problem.
@@ -39,7 +48,10 @@ def exact_solution(
     critical_points : sequence of (float, float), optional
         Where the constraint starts to bind on the contact part; the norm of that name needs them.
     singular_points : sequence of (float, float), optional
-        Where derivatives are unbounded: quadrature is refined there. By default the critical points.
+        Where derivatives are unbounded: quadrature is refined there. By default the critical
+        points.
+    multiplier : number, formula or function, optional
+        k du/dnu less its threshold on the contact part, where that is not zero; not of a family.
     **parameters
         Of a family.
 
@@ -63,9 +75,10 @@ def exact_solution(
     """
     critical = _points(critical_points, "critical_points")
     singular = _points(singular_points, "singular_points") or critical
+    pressure = None if multiplier is None else read_datum(multiplier, "exact.multiplier")
     if callable(u):
         _refuse(parameters, "parameters", "a function")
-        return FunctionSolution(_function(u), _gradient(gradient), critical, singular)
+        return FunctionSolution(_function(u), _gradient(gradient), critical, singular, pressure)
     if gradient is not None:
         raise SceneError("gradient: not needed, that of a formula or family is derived; drop it")
     if not isinstance(u, str):
@@ -73,8 +86,7 @@ def exact_solution(
     if u in FAMILIES:
         return read_exact({"family": u, "parameters": parameters}, field="exact")
     _refuse(parameters, "parameters", "a formula")
-    points = {"critical_points": critical, "singular_points": singular}
-    return read_exact({"u": u} | points, field="exact")
+    return FormulaSolution(Formula(u, "exact"), None, critical, singular, pressure)
 
 
 def read_exact_solution(value: Any) -> ExactSolution:

@@ -228,7 +228,8 @@ def _cut(section: dict[str, Any], n: int) -> Any:
     from signorini.mesh.patterns import PATTERNS
 
     counts = count_cells(section["size"], section["cells"], n)
-    return PATTERNS[section["diagonal"]](*counts, section["origin"], section["size"])
+    pattern: Any = PATTERNS[section["diagonal"]]
+    return pattern(*counts, section["origin"], section["size"])
 
 
 def polygon(
@@ -341,7 +342,8 @@ def _named(mesh: Any, boundaries: Mapping[str, Any], subdomains: Mapping[str, An
     elif package in ("skfem", "meshio"):
         found = {"skfem": from_skfem, "meshio": from_meshio}[package](mesh)
     elif isinstance(mesh, tuple | list) and len(mesh) == 2:
-        return from_arrays(*mesh, boundaries, subdomains)
+        p, t = mesh
+        return from_arrays(p, t, boundaries, subdomains)
     else:
         raise MeshError(f"mesh: {described(mesh)} is no mesh; {_REMEDY}")
     return with_names(found, boundaries, subdomains)

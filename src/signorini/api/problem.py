@@ -24,6 +24,7 @@ from signorini.mesh.domain import longest_edge
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
+from signorini.wording import nearest
 
 
 def problem(
@@ -37,15 +38,17 @@ def problem(
     contact: Names | None = None,
     neumann: Names | None = None,
     coefficient: PartwiseDatum | None = None,
+    contact_flux: PartwiseDatum | None = None,
+    constraint: str = "lower",
     exact: Any = None,
     load_quadrature: str | int = "exact",
 ) -> Problem:
     """A discrete Signorini problem.
 
-    Find u with -div(k grad u) = f inside, u given on the Dirichlet part, k du/dnu = g on the Neumann
-    part, and on the contact part
+    Find u with -div(k grad u) = f inside, u given on the Dirichlet part, k du/dnu = g on the
+    Neumann part, and on the contact part, with a threshold s of the flux,
 
-        u >= obstacle,  k du/dnu >= 0,  (u - obstacle) k du/dnu = 0.
+        u >= obstacle,  k du/dnu >= s,  (u - obstacle) (k du/dnu - s) = 0.
 
     A datum is a number, a formula in x and y as text, or a function of two arrays x and y of one
     shape that returns an array of that shape.
@@ -71,12 +74,16 @@ def problem(
         By default all that is left. If named, every facet must be on a part with a condition.
     coefficient : datum, or dict of subdomain to number, optional
         Diffusion coefficient k > 0, taken at the centroid of each triangle; 1 by default.
+    contact_flux : datum, or dict of part of the boundary to datum, optional
+        The threshold s, unit of k u per length; 0 by default.
+    constraint : {"lower", "upper"}, optional
+        For upper both inequalities are reversed.
     exact : ExactSolution, str, dict, or pair (u, gradient), optional
         An exact solution, see `exact_solution`: data that are not given are derived from it, those
         that are given are checked against it, and it against Signorini's conditions.
     load_quadrature : str or int, optional
-        Rule for the integral of f: exact (to round-off for smooth f), centroid, midpoints, vertices,
-        nodal, or a degree.
+        Rule for the integral of f: exact (to round-off for smooth f), centroid, midpoints,
+        vertices, nodal, or a degree.
 
     Returns
     -------
@@ -105,7 +112,11 @@ def problem(
     >>> signorini.solve(problem).status
     'solved'
     """
-    given = _read_data(f=f, g=g, obstacle=obstacle, coefficient=coefficient)
+    _check_choices(constraint=constraint, load_quadrature=load_quadrature)
+    given = _read_data(
+        f=f, g=g, obstacle=obstacle, coefficient=coefficient, contact_flux=contact_flux
+    )
+    given["constraint"] = constraint
     truth = None
     if exact is not None:
         truth = with_coefficient(read_exact_solution(exact), given.get("coefficient"))
@@ -128,8 +139,23 @@ _READERS: dict[str, Callable[[Any], Any]] = {
     "g": partial(read_partwise, field="g"),
     "obstacle": partial(read_partwise, field="obstacle"),
     "dirichlet": partial(read_partwise, field="dirichlet"),
+    "contact_flux": partial(read_partwise, field="contact_flux"),
     "coefficient": read_coefficient,
 }
+_CHOICES = {
+    "constraint": ("lower", "upper"),
+    "load_quadrature": ("exact", "centroid", "midpoints", "vertices", "nodal"),
+}
+_DEGREES = range(1, 61)
+
+
+def _check_choices(**given: str | int) -> None:
+    """Refuse what is none of the words that an argument can be."""
+    for field, value in given.items():
+        is_degree = field == "load_quadrature" and type(value) is int and value in _DEGREES
+        if not is_degree and value not in _CHOICES[field]:
+            more = ", or a degree from 1 to 60" if field == "load_quadrature" else ""
+            raise SceneError(f"{field}: {described(value)} {nearest(value, _CHOICES[field])}{more}")
 
 
 def _read_data(**given: Any) -> dict[str, Any]:

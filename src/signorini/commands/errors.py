@@ -8,12 +8,12 @@ example:
   signorini errors config/scenes/paper.yaml --reference reference.npz -o errors.csv u4.npz u8.npz
 """
 
+from signorini.api.scene_study import check_truth, scene_errors
+from signorini.api.solving import solve_levels
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
-from signorini.commands.solving import solve_level, solve_levels
 from signorini.commands.text_table import text_table
-from signorini.errors.measure import against_exact, against_reference, row
-from signorini.exceptions import SceneError
+from signorini.errors.measure import row
 from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
@@ -34,20 +34,14 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Measure, and write or show the table.
-
-    Raises
-    ------
-    SceneError
-        If the scene has no truth to compare with.
-    """
+    """Measure, and write or show the table."""
     scene = scene_of(arguments.scene)
-    if scene.truth["kind"] == "none":
-        raise SceneError(f"{scene.source}: truth.kind is none: there is nothing to compare with")
+    check_truth(scene)
     norms = arguments.norms or scene.document["norms"]
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)
-        errors = _errors(scene, domain, norms, arguments.reference)
+        reference = read_solution(arguments.reference) if arguments.reference else None
+        errors = scene_errors(scene, domain, norms, reference)
         found = solve_levels(scene)
         if arguments.solutions:
             found = map(read_solution, arguments.solutions)
@@ -56,16 +50,3 @@ def run(arguments):
         write_csv(arguments.output, rows)
         return Outcome(f"errors: {len(rows)} solutions", rows)
     return Outcome(text_table(rows, [*_SHOWN, *norms, "status"]), rows)
-
-
-def _errors(scene, domain, norms, reference):
-    """A function from a stored solution to its errors."""
-    if scene.truth["kind"] == "exact":
-        return against_exact(scene.problem_statement, domain, norms)
-    if reference:
-        truth = read_solution(reference)
-    else:
-        truth = solve_level(scene, scene.truth["element"], scene.truth["n"])
-    quadrature = scene.document["norm_quadrature"]
-    coefficient = scene.document["data"]["coefficient"]
-    return against_reference(truth, domain, norms, quadrature, coefficient)

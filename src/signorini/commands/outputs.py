@@ -8,9 +8,9 @@ example:
   signorini outputs config/scenes/seepage.yaml --mesh mesh.npz -o outputs.csv u4.npz u8.npz
 """
 
+from signorini.api.solving import solve_level, solve_levels
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
-from signorini.commands.solving import solve_level, solve_levels
 from signorini.commands.text_table import text_table
 from signorini.exceptions import SceneError
 from signorini.fem.problem import discretize_on

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from signorini.exact.solution import ExactSolution
 from signorini.exceptions import SceneError
 from signorini.fem.function import Function
+from signorini.formula import Formula
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,8 @@ class FunctionSolution(ExactSolution):
     slopes : Function or pair of Function
         du/dx and du/dy: two functions, or one that returns both.
     critical_points, singular_points : tuple of (float, float)
+    multiplier : Formula or Function, optional
+        As of a `FormulaSolution`.
 
     Notes
     -----
@@ -34,6 +37,7 @@ class FunctionSolution(ExactSolution):
     slopes: "Gradient"
     critical_points: tuple[tuple[float, float], ...] = ()
     singular_points: tuple[tuple[float, float], ...] = ()
+    multiplier: Formula | Function | None = None
 
     def value(self, x, y):
         return self.u(x, y)

@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
+from signorini.fem.function import Function
 from signorini.formula import Formula
 
 
@@ -172,7 +173,7 @@ class FormulaSolution(ExactSolution):
     obstacle: Formula | None = None
     critical_points: tuple[tuple[float, float], ...] = ()
     singular_points: tuple[tuple[float, float], ...] = ()
-    multiplier: Formula | None = None
+    multiplier: Formula | Function | None = None
 
     @property
     def constant_load(self):

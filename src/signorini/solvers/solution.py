@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from signorini.fem.mirror import mirrored, negated
+from signorini.fem.problem import Problem
 from signorini.work import count
 
 # What a residual or an accuracy may be called, from the best name to the worst.
@@ -70,7 +71,7 @@ class Solution:
     reason: str
     constant: float
     deviation: np.ndarray = field(repr=False)
-    problem: object = field(repr=False)
+    problem: Problem = field(repr=False)
 
     @property
     def force(self):

@@ -1,11 +1,15 @@
-"""Solutions that a command needs and nobody stored: they are computed on the spot."""
+"""Solutions of a scene, computed on the spot."""
 
 import logging
+from collections.abc import Iterator
+from typing import Any
+
+from signorini.scene.scene import Scene
 
 _log = logging.getLogger(__name__)
 
 
-def solve_level(scene, element, n):
+def solve_level(scene: Scene, element: str, n: int) -> Any:
     """The solution of an element and a level of a scene.
 
     Parameters
@@ -28,7 +32,7 @@ def solve_level(scene, element, n):
     return stored(problem, solve(problem, method), n, domain.mesh_size(n))
 
 
-def solve_levels(scene):
+def solve_levels(scene: Scene) -> Iterator[Any]:
     """The solutions of all elements and levels of a scene, one after the other.
 
     Parameters

@@ -1,0 +1,250 @@
+"""Errors over levels, as tables: those of errors.csv and rates.csv."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from signorini.api.arguments import described
+from signorini.api.exact import check_gradient, read_exact_solution
+from signorini.api.scene_study import scene_rows
+from signorini.api.solution import Solution, solve
+from signorini.errors.measure import exact_measure, reference_measure, row
+from signorini.errors.norms import CONTACT, DOMAIN, RATED
+from signorini.exact import ExactSolution, with_coefficient
+from signorini.exceptions import SceneError, SignoriniError
+from signorini.fem.data import BySubdomain
+from signorini.fem.problem import Problem
+from signorini.scene.scene import Scene
+from signorini.wording import nearest
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+
+def measure_of(
+    truth: Any, solution: Solution, norms: Sequence[str] | None
+) -> Callable[[Solution], dict[str, Any]]:
+    """A function from solutions of the kind of one to their errors.
+
+    Parameters
+    ----------
+    truth, norms
+        See `Solution.errors`, also for what is raised.
+    solution : Solution
+
+    Returns
+    -------
+    callable
+    """
+    if isinstance(truth, Solution):
+        return _reference_measure(truth, _checked(norms or DOMAIN, DOMAIN))
+    exact = read_exact_solution(truth)
+    _check_gradient_on(exact, solution.problem)
+    coefficient = None if solution.problem.data is None else solution.problem.data.coefficient
+    if not isinstance(coefficient, BySubdomain):
+        exact = with_coefficient(exact, coefficient)
+    chosen = _checked(norms or _all_norms(exact, solution, coefficient), RATED)
+    if "multiplier_l2" in chosen and isinstance(coefficient, BySubdomain):
+        raise SceneError(
+            "norms: multiplier_l2 needs the coefficient as a number, formula or function, not by "
+            "subdomain; drop it, or give the coefficient so"
+        )
+    if "critical_points" in chosen and not exact.critical_points:
+        raise SceneError(
+            "norms: critical_points needs the exact ones; name them in exact_solution, or drop it"
+        )
+    measure = exact_measure(exact, chosen)
+
+    def errors_of(solution: Solution) -> dict[str, Any]:
+        problem = solution.problem
+        return measure(problem.mesh, solution._stored, problem.coefficient)
+
+    return errors_of
+
+
+def _reference_measure(truth: Solution, norms: Sequence[str]) -> Callable[..., dict[str, Any]]:
+    problem = truth.problem
+    measure = reference_measure(problem.mesh, truth._stored, norms, weight=problem.coefficient)
+
+    def errors_of(solution: Solution) -> dict[str, Any]:
+        problem = solution.problem
+        return measure(problem.mesh, solution._stored, problem.coefficient, solution is truth)
+
+    return errors_of
+
+
+def _all_norms(exact: ExactSolution, solution: Solution, coefficient: Any) -> tuple[str, ...]:
+    """All norms that apply."""
+    if not solution.problem.contact.size:
+        return DOMAIN
+    left_out = set() if exact.critical_points else {"critical_points"}
+    if isinstance(coefficient, BySubdomain):
+        left_out.add("multiplier_l2")
+    return (*DOMAIN, *(norm for norm in CONTACT if norm not in left_out))
+
+
+def _checked(norms: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """The norms that are asked for, if all are known."""
+    if isinstance(norms, str):
+        norms = (norms,)
+    for norm in norms:
+        if norm not in known:
+            raise SceneError(f"norms: unknown norm {norm!r}; {nearest(norm, known)}")
+    return tuple(norms)
+
+
+def _check_gradient_on(exact: ExactSolution, problem: Problem) -> None:
+    """`check_gradient` at the centroids of some triangles."""
+    mesh = problem.mesh
+    stride = -(-mesh.number_of_triangles // 100)
+    check_gradient(exact, mesh.p[:, mesh.t[:, ::stride]].mean(axis=1))
+
+
+def convergence(
+    scene: Scene | Callable[[int], Problem | Iterable[Problem]],
+    levels: Sequence[int] | None = None,
+    truth: Any = None,
+    norms: Sequence[str] | None = None,
+) -> "DataFrame":
+    """Errors over levels.
+
+    Parameters
+    ----------
+    scene : Scene or callable
+        A scene, which has its own levels, elements, truth and norms. Or a function from a level n
+        to a `Problem`, or to several, such as one for each element.
+    levels : sequence of int, optional
+        With a function: increasing.
+    truth : optional
+        With a function: what `Solution.errors` takes, an exact solution or a finer one.
+    norms : sequence of str, optional
+        See `Solution.errors`; by default those of the scene.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The columns of errors.csv: element, n, h, dofs, the norms, floor, and what the solver says.
+        The rows of an element come together, by increasing level.
+
+    Raises
+    ------
+    SignoriniError
+        Of the scene, the problems or the solver; or if levels or truth are missing.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> def problem(n):
+    ...     mesh = signorini.rectangle(n)
+    ...     return signorini.problem(mesh, "P1", exact="smooth", dirichlet=SIDES, contact="bottom")
+    >>> SIDES = ["right", "top", "left"]
+    >>> frame = signorini.convergence(problem, [4, 8, 16], "smooth")
+    >>> frame["l2"].is_monotonic_decreasing
+    True
+    """
+    if isinstance(scene, Scene):
+        _refuse(levels=levels, truth=truth)
+        return as_frame(scene_rows(scene, norms))
+    if not callable(scene):
+        raise SceneError(
+            f"scene: {described(scene)} is neither a Scene nor a function from a level n to a "
+            "Problem; load one by signorini.load_scene"
+        )
+    if levels is None or truth is None:
+        missing = "levels" if levels is None else "truth"
+        raise SceneError(f"{missing}: missing; beside a function of n give levels and truth")
+    return as_frame(_rows(scene, levels, truth, norms))
+
+
+def _refuse(**given: Any) -> None:
+    for field, value in given.items():
+        if value is not None:
+            raise SceneError(
+                f"{field}: {described(value)} is not needed, the scene has it; drop it"
+            )
+
+
+def _rows(
+    problem_of_level: Callable[[int], Problem | Iterable[Problem]],
+    levels: Sequence[int],
+    truth: Any,
+    norms: Sequence[str] | None,
+) -> list[dict[str, Any]]:
+    """The rows of a program's problems; one measure serves all, as a reference is read once."""
+    rows: list[dict[str, Any]] = []
+    measure: Callable[..., dict[str, Any]] | None = None
+    for n in levels:
+        problems = problem_of_level(n)
+        for problem in [problems] if isinstance(problems, Problem) else problems:
+            solution = solve(_of_level(problem, n))
+            measure = measure or measure_of(truth, solution, norms)
+            rows.append(row(solution._stored, lambda _, s=solution, m=measure: m(s)))
+    first = {entry["element"]: k for k, entry in reversed(list(enumerate(rows)))}
+    return sorted(rows, key=lambda entry: first[entry["element"]])
+
+
+def _of_level(problem: Any, n: int) -> Problem:
+    """The problem, its level named as the program names it."""
+    if not isinstance(problem, Problem):
+        raise SceneError(
+            f"problem_of_level: {described(problem)} for n = {n} is no Problem; return that of "
+            "signorini.problem(...), or a list of them"
+        )
+    return replace(problem, n=n)
+
+
+def rates(errors: "DataFrame") -> "DataFrame":
+    """Slopes of the errors against the mesh width.
+
+    Parameters
+    ----------
+    errors : pandas.DataFrame
+        Of `convergence`, or read from errors.csv; two levels at least.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The columns of rates.csv: element, norm, kind (mean of the slopes between levels, or
+        least-squares fit), slope, and floor, which is "0", or says why the slope means nothing.
+
+    Raises
+    ------
+    SignoriniError
+        If there are fewer than two levels, or a column is missing.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> levels = {"element": "P1", "h": [0.5, 0.25], "l2": [4.0, 1.0], "floor": ""}
+    >>> rates(pd.DataFrame(levels)).query("kind == 'fit'")["slope"].item()
+    2.0
+    """
+    from signorini.errors.rates import rate_rows
+
+    columns = list(getattr(errors, "columns", ()))
+    for column in ("element", "h", "floor"):
+        if column not in columns:
+            raise SignoriniError(
+                f"errors: no column {column!r} in {described(errors)}; "
+                "give the table of signorini.convergence"
+            )
+    known = errors.astype(object).where(errors.notna(), None)
+    known["floor"] = errors["floor"].fillna("")
+    return as_frame(rate_rows(known.to_dict("records")))
+
+
+def as_frame(rows: list[dict[str, Any]]) -> "DataFrame":
+    """Rows as a table of pandas.
+
+    Raises
+    ------
+    SceneError
+        If pandas is not installed.
+    """
+    try:
+        import pandas as pd
+    except ModuleNotFoundError:
+        raise SceneError(
+            "a table needs pandas; pip install pandas, or signorini[studies]"
+        ) from None
+    return pd.DataFrame(rows)

@@ -1,0 +1,76 @@
+"""The study of a scene: all its levels solved, and the rows of errors.csv.
+
+Commands take it from here: no figure and no table of pandas can be reached.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from signorini.api.solving import solve_level, solve_levels
+from signorini.errors.measure import against_exact, against_reference, row
+from signorini.exceptions import SceneError
+from signorini.scene.scene import Scene, naming
+
+
+def scene_rows(scene: Scene, norms: Sequence[str] | None = None) -> list[dict[str, Any]]:
+    """The rows of errors.csv of a scene, all of it solved here.
+
+    Parameters
+    ----------
+    scene : Scene
+    norms : sequence of str, optional
+        By default those of the scene.
+
+    Returns
+    -------
+    list of dict
+
+    Raises
+    ------
+    SignoriniError
+        Of the solver; or if the scene has no truth.
+    """
+    check_truth(scene)
+    with naming(scene.source):
+        errors = scene_errors(scene, scene.problem_statement.triangulations, norms)
+        return [row(solution, errors) for solution in solve_levels(scene)]
+
+
+def check_truth(scene: Scene) -> None:
+    """Refuse a scene without a truth.
+
+    Raises
+    ------
+    SceneError
+        Naming its file.
+    """
+    if scene.truth["kind"] == "none":
+        raise SceneError(f"{scene.source}: truth.kind is none: there is nothing to compare with")
+
+
+def scene_errors(
+    scene: Scene, domain: Any, norms: Sequence[str] | None = None, reference: Any = None
+) -> Callable[..., dict[str, Any]]:
+    """A function from a stored solution of a scene to its errors.
+
+    Parameters
+    ----------
+    scene : Scene
+    domain : Rectangle or Refined
+        The scene's.
+    norms : sequence of str, optional
+        By default those of the scene.
+    reference : StoredSolution, optional
+        The scene's, where it has one; else it is solved here.
+
+    Returns
+    -------
+    callable
+    """
+    norms = norms or scene.document["norms"]
+    if scene.truth["kind"] == "exact":
+        return against_exact(scene.problem_statement, domain, norms)
+    truth = reference or solve_level(scene, scene.truth["element"], scene.truth["n"])
+    quadrature = scene.document["norm_quadrature"]
+    coefficient = scene.document["data"]["coefficient"]
+    return against_reference(truth, domain, norms, quadrature, coefficient)

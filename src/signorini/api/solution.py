@@ -1,0 +1,306 @@
+"""`solve`, and the solution that tells a program what it wants to know."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from signorini import solvers
+from signorini.api.arguments import described
+from signorini.api.types import Booleans, Floats
+from signorini.exceptions import SceneError
+from signorini.fem.problem import Problem
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+
+
+@dataclass(frozen=True, eq=False)
+class Solution(solvers.Solution):
+    """What was found, its proof, and what it tells.
+
+    Made by `solve`. Its fields, frozen, are those of `signorini.solvers.Solution`: ``u``, the
+    degrees of freedom; ``multiplier``, ``active`` and ``undecided`` at the contact dofs;
+    ``residual``, ``accuracy``, ``multiplier_accuracy`` and ``status``, the proof; ``iterations``,
+    ``method`` and ``reason``; ``constant`` and ``deviation``; and the ``problem``.
+    """
+
+    @property
+    def points(self) -> Floats:
+        """Where the degrees of freedom are, shape (2, ndof), unit of length.
+
+        Vertices for P1, midpoints of facets for CR.
+        """
+        element, mesh = self.problem.finite_element, self.problem.mesh
+        return element.nodes(mesh, np.arange(self.u.size))
+
+    @property
+    def contact_points(self) -> Floats:
+        """Where the contact dofs are, shape (2, nc), unit of length."""
+        return self.problem.contact_points
+
+    @property
+    def resultant(self) -> float:
+        """The whole contact force, the integral of k du/dnu over the contact part, unit of k u.
+
+        It is the sum of `force`, so that it balances the other forces exactly: tested with v = 1
+        near the contact part, not integrated from a gradient.
+        """
+        return float(self.force.sum())
+
+    @property
+    def critical_points(self) -> Floats:
+        """Where the constraint starts to bind, shape (2, k), unit of length.
+
+        Midway between neighbouring contact dofs of which one binds: known to half a mesh width.
+        """
+        from signorini.fem.contact_line import critical_points
+
+        problem = self.problem
+        return critical_points(problem.mesh, problem.element, problem.contact, self.active)
+
+    @property
+    def gradient(self) -> Floats:
+        """Gradient of u on each triangle, shape (2, nt), unit of u per length."""
+        mesh = self.problem.mesh
+        return mesh.gradients(self.problem.finite_element.vertex_values(mesh, self.u))
+
+    def at(self, points: Any) -> Floats:
+        """u at points.
+
+        Parameters
+        ----------
+        points : array_like, shape (2, k)
+            In the domain, unit of length.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            Where a CR function jumps, between triangles, the value in one of them.
+
+        Raises
+        ------
+        MeshError
+            If the points are no finite numbers of that shape, or one lies outside the domain.
+        """
+        from signorini.fem.evaluate import evaluate
+
+        return evaluate(self.problem.mesh, self.problem.element, self.u, points)
+
+    def errors(self, exact: Any, norms: Sequence[str] | None = None) -> dict[str, Any]:
+        """Norms of the error.
+
+        Parameters
+        ----------
+        exact : ExactSolution, str, dict, pair (u, gradient), or a finer Solution
+            An exact solution, see `exact_solution`; or a solution on a mesh that was refined from
+            this one's.
+        norms : sequence of str, optional
+            Of l2, h1_semi, h1 and energy; and with an exact solution, on the contact part, of
+            trace_l2, multiplier_l2 and critical_points. By default all that apply; critical_points
+            where the exact solution names some; multiplier_l2 unless the coefficient is a number
+            for each subdomain.
+
+        Returns
+        -------
+        dict
+            Norm -> error, None for those of l2, h1_semi and h1 that are not asked for; and
+            ``floor``, the names of those that are round-off alone. As in errors.csv.
+
+        Raises
+        ------
+        SceneError, FormulaError, MeshError
+            If the exact solution is none, or has a value that is not finite, a norm is unknown, or
+            the other solution's mesh is no refinement of this one's.
+
+        Notes
+        -----
+        Against an exact solution the difference itself is integrated, by a quadrature that is
+        refined at singular points; against a finer solution all is exact.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> exact = "x**2 - y**2"
+        >>> sides = {"dirichlet": ["bottom", "right", "top", "left"]}
+        >>> problem = signorini.problem(signorini.rectangle(8), "P1", exact=exact, **sides)
+        >>> round(signorini.solve(problem).errors(exact)["l2"], 4)
+        0.0016
+        """
+        from signorini.api.convergence import measure_of
+
+        return measure_of(exact, self, norms)(self)
+
+    def contact_line(self) -> "DataFrame":
+        """What happens along the contact part: a row for each contact dof, in order.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of contact_line.csv: arc length ``s``, ``x``, ``y``, ``u``, ``obstacle``,
+            ``flux``, ``binding``, and so on.
+        """
+        from signorini.api.convergence import as_frame
+
+        return as_frame(self._contact_rows())
+
+    def _contact_rows(self) -> list[dict[str, Any]]:
+        from signorini.fem.contact_line import contact_rows
+
+        return contact_rows(self.problem.mesh, self._stored)
+
+    def plot(self, path: str | Path | None = None, title: str = "") -> "Figure":
+        """Draw u, the conditions on the boundary, and where the constraint binds.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where to write the figure, .pdf or .png.
+        title : str, optional
+            Plain text.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from signorini.figures.field import draw_field
+        from signorini.report.field import field_of
+
+        return _saved(draw_field(field_of(self.problem.mesh, self._stored), title), path)
+
+    def plot_contact(self, path: str | Path | None = None) -> "Figure":
+        """Draw u over the obstacle, and below it the contact force, along the contact part.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where to write the figure, .pdf or .png.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        SceneError
+            If there is no contact part.
+        """
+        from signorini.figures.contact_line import draw_contact_line
+
+        rows = self._contact_rows()
+        if not rows:
+            raise SceneError(
+                "contact: the problem has no contact part to draw; name one in contact"
+            )
+        return _saved(draw_contact_line(rows), path)
+
+    def to_vtu(self, path: str | Path) -> None:
+        """Write u, its gradient and the labelled boundary for ParaView.
+
+        Parameters
+        ----------
+        path : str or Path
+            Ending in .vtu; meshio must be installed.
+
+        Raises
+        ------
+        StorageError
+            If the file cannot be written.
+        """
+        from signorini.report.vtu import write_vtu
+
+        write_vtu(path, self.problem.mesh, self._stored)
+
+    def to_skfem(self) -> tuple[Any, Floats]:
+        """The solution as scikit-fem has it.
+
+        Returns
+        -------
+        basis : skfem.Basis
+            Of `ElementTriP1` or `ElementTriCR`, its mesh's boundaries named by what holds there,
+            and by the names of parts.
+        u : ndarray, shape (ndof,)
+            Its degrees of freedom.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> mesh = signorini.rectangle(4)
+        >>> problem = signorini.problem(mesh, f=0, dirichlet={"top": "x"}, contact="bottom")
+        >>> basis, u = signorini.solve(problem).to_skfem()
+        >>> basis.mesh.boundaries.keys() >= {"contact", "dirichlet", "neumann"}
+        True
+        """
+        import skfem
+
+        element = {"P1": skfem.ElementTriP1, "CR": skfem.ElementTriCR}[self.problem.element]
+        return skfem.Basis(self.problem.mesh.skfem, element()), self.u
+
+    @property
+    def _stored(self) -> Any:
+        """As figures, tables and files take it."""
+        from signorini.mesh.domain import longest_edge
+        from signorini.solvers.stored import stored
+
+        problem = self.problem
+        h = longest_edge(problem.mesh) if problem.h is None else problem.h
+        return stored(problem, self, problem.n or 1, h)
+
+
+def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None) -> Solution:
+    """Solve a discrete Signorini problem.
+
+    Parameters
+    ----------
+    problem : Problem
+        Of `signorini.problem`, `Scene.problem` or `discretize`.
+    method : {"auto", "fourier", "direct", "multigrid"}
+        "auto" takes the cheapest route that applies and says why in the solution.
+    guess : ndarray of bool, shape (nc,), optional
+        Contact dofs believed to bind, for instance from a coarser level.
+
+    Returns
+    -------
+    Solution
+        Its status follows from the KKT residual, recomputed from the problem, and from the
+        estimated errors of u and of the contact forces; see docs/solvers.md.
+
+    Raises
+    ------
+    SolverError
+        If the data or the solution are not finite, the problem has no or no unique solution, the
+        method is unknown or does not apply or cannot prove its contact set, no digit of u survives
+        rounding, or the KKT residual of the result exceeds 1e-6.
+    SceneError
+        If `problem` is none.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> scene = signorini.load_scene("config/scenes/paper.yaml")
+    >>> solution = signorini.solve(scene.problem("P1", 64))
+    >>> solution.status, round(float(solution.u[0]), 8)
+    ('solved', 0.60808628)
+    """
+    if not isinstance(problem, Problem):
+        raise SceneError(
+            f"problem: {described(problem)} is no Problem; "
+            "make one by signorini.problem(...) or scene.problem(element, n)"
+        )
+    return Solution(**vars(solvers.solve(problem, method, guess)))
+
+
+def _saved(figure: "Figure", path: str | Path | None) -> "Figure":
+    """The figure, written where a path is given."""
+    if path is not None:
+        from signorini.figures.style import FORMATS, save_figure
+
+        if Path(path).suffix not in FORMATS:
+            raise SceneError(
+                f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"
+            )
+        save_figure(figure, path)
+    return figure

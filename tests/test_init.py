@@ -33,13 +33,18 @@ def modules_after(code):
             f"import signorini; signorini.load_scene({str(ROOT / 'config/scenes/paper.yaml')!r})",
             {"numpy", "scipy", "skfem", "matplotlib"},
         ),
+        (
+            "import signorini; signorini.solve(signorini.problem("
+            "signorini.rectangle(4), f=lambda x, y: x, dirichlet='top', contact='bottom'))",
+            {"pandas", "matplotlib", "skfem", "meshio"},
+        ),
         ("from signorini import solve", {"scipy", "skfem", "yaml", "jsonschema", "matplotlib"}),
         (
             "from signorini.errors.reference import ReferenceErrors",
             {"scipy", "skfem", "yaml", "jsonschema", "matplotlib"},
         ),
     ],
-    ids=["package", "scene room", "a scene", "solvers", "errors"],
+    ids=["package", "scene room", "a scene", "a solve", "solvers", "errors"],
 )
 def test_a_room_imports_what_it_uses_and_no_more(code, absent):
     assert modules_after(code) & absent == set()

@@ -39,7 +39,7 @@ def read_datum(value: Datum, field: str) -> Formula | Function:
         return Formula(value, field)
     if isinstance(value, Real) and not isinstance(value, bool):
         return Formula(_number(value), field)
-    if isinstance(value, Complex):
+    if isinstance(value, Complex) and not isinstance(value, Real):
         raise FormulaError(f"{field}: {value} is not real; {_DATUM}")
     if not callable(value):
         raise FormulaError(f"{field}: {described(value)} is no datum; {_DATUM}")
@@ -134,4 +134,4 @@ def described(value: object) -> str:
     if hasattr(value, "shape") and hasattr(value, "dtype"):
         return f"an array of shape {value.shape} and type {value.dtype}"
     text = " ".join(repr(value).split())
-    return f"{cut(text, 40)}, of type {type(value).__name__},"
+    return f"{cut(text, 40)} ({type(value).__name__})"

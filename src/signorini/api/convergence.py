@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from signorini.api.arguments import described
-from signorini.api.exact import check_gradient, read_exact_solution
+from signorini.api.exact import check_functions, read_exact_solution
 from signorini.api.scene_study import scene_rows
 from signorini.api.solution import Solution, solve
 from signorini.errors.measure import exact_measure, reference_measure, row
@@ -39,7 +39,7 @@ def measure_of(
     if isinstance(truth, Solution):
         return _reference_measure(truth, _checked(norms or DOMAIN, DOMAIN))
     exact = read_exact_solution(truth)
-    _check_gradient_on(exact, solution.problem)
+    check_functions(exact, solution.problem.mesh)
     coefficient = None if solution.problem.data is None else solution.problem.data.coefficient
     if not isinstance(coefficient, BySubdomain):
         exact = with_coefficient(exact, coefficient)
@@ -91,13 +91,6 @@ def _checked(norms: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
         if norm not in known:
             raise SceneError(f"norms: unknown norm {norm!r}; {nearest(norm, known)}")
     return tuple(norms)
-
-
-def _check_gradient_on(exact: ExactSolution, problem: Problem) -> None:
-    """`check_gradient` at the centroids of some triangles."""
-    mesh = problem.mesh
-    stride = -(-mesh.number_of_triangles // 100)
-    check_gradient(exact, mesh.p[:, mesh.t[:, ::stride]].mean(axis=1))
 
 
 def convergence(

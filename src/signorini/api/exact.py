@@ -1,6 +1,8 @@
 """Exact solutions that a program knows: functions with their gradients, formulas, families."""
 
+import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,13 +20,17 @@ from signorini.exact import (
 from signorini.exceptions import FormulaError, SceneError
 from signorini.fem.function import Function
 from signorini.formula import Formula
+from signorini.formula.lexicon import KNOWN
+from signorini.wording import nearest
 
 _REMEDY = (
     "give a formula as text, the name of a family, or exact_solution(u, gradient) "
     "of functions of x and y"
 )
-_STEP = 1e-6  # of a difference, relative to the extent of the points
-_OFF = 1e-3  # by which a gradient may differ from it, relative to the largest
+_STEP = 1e-5  # of a difference, relative to the extent of the mesh
+_OFF = 1e-3  # by which a derivative may differ from it, relative to the largest
+_POINTS = 100  # at most, at which they are compared
+_WORD = re.compile(r"[a-z][a-z-]+")
 Points = Sequence[Sequence[float]]
 
 
@@ -86,6 +92,8 @@ def exact_solution(
     if u in FAMILIES:
         return read_exact({"family": u, "parameters": parameters}, field="exact")
     _refuse(parameters, "parameters", "a formula")
+    if _WORD.fullmatch(u) and u not in KNOWN:
+        raise SceneError(f"exact: {u!r} is neither a formula nor a family; {nearest(u, FAMILIES)}")
     return FormulaSolution(Formula(u, "exact"), None, critical, singular, pressure)
 
 
@@ -115,36 +123,62 @@ def read_exact_solution(value: Any) -> ExactSolution:
     return exact_solution(value)
 
 
-def check_gradient(exact: ExactSolution, points: Floats) -> None:
-    """Hold the gradient that a program gives against differences of u.
+def check_functions(exact: ExactSolution, mesh: Any, f: Any = None) -> None:
+    """Hold the gradient that a program gives against differences of u, and f against those of it.
 
     Parameters
     ----------
     exact : ExactSolution
-        Only a `FunctionSolution` is looked at.
-    points : ndarray, shape (2, k)
-        Inside the domain, unit of length.
+        Only functions of a program are looked at; all else is derived.
+    mesh : Grid or Triangulation
+    f : callable, optional
+        The load that goes with it.
 
     Raises
     ------
     SceneError
-        If it is off at more than half of them: kinks and singular points are few.
+        If one is off at more than half of some points: kinks and singular points are few.
     """
-    if not isinstance(exact, FunctionSolution):
+    if exact.knows_load:
         return
-    step = _STEP * float(np.ptp(points, axis=1).max())
-    (x, y), gradient = points, np.stack(exact.gradient(*points))
-    along_x = exact.value(x + step, y) - exact.value(x - step, y)
-    along_y = exact.value(x, y + step) - exact.value(x, y - step)
-    differences = np.stack([along_x, along_y]) / (2.0 * step)
-    size = float(np.max(np.abs(differences), initial=0.0))
-    off = np.abs(gradient - differences).max(axis=0) > _OFF * size
+    stride = -(-mesh.number_of_triangles // _POINTS)
+    x, y = mesh.p[:, mesh.t[:, ::stride]].mean(axis=1)
+    step = _STEP * float(max(np.ptp(axis) for axis in mesh.p))
+    slopes = [_difference(exact.value, x, y, step, axis) for axis in range(2)]
+    size = float(np.abs(slopes).max())
+    for axis, (given, found) in enumerate(zip(exact.gradient(x, y), slopes, strict=True)):
+        _compare(f"exact.gradient[{axis}]", given, found, size, (x, y), "u")
+    if f is not None:
+        fluxes = partial(exact.flux, nx=1.0, ny=0.0), partial(exact.flux, nx=0.0, ny=1.0)
+        outflow = [_difference(flux, x, y, step, axis) for axis, flux in enumerate(fluxes)]
+        _compare(
+            "f",
+            f(x, y),
+            -(outflow[0] + outflow[1]),
+            size + np.abs(outflow).max(),
+            (x, y),
+            "the flux",
+        )
+
+
+def _difference(
+    function: Callable[..., Floats], x: Floats, y: Floats, step: float, axis: int
+) -> Floats:
+    """The central difference of a function along an axis."""
+    dx, dy = (step, 0.0) if axis == 0 else (0.0, step)
+    return (function(x + dx, y + dy) - function(x - dx, y - dy)) / (2.0 * step)
+
+
+def _compare(
+    field: str, given: Floats, found: Floats, size: float, points: tuple[Floats, Floats], what: str
+) -> None:
+    off = np.abs(given - found) > _OFF * size
     if 2 * off.sum() > off.size:
         k = int(np.argmax(off))
-        given, found = gradient[:, k], differences[:, k]
+        x, y = points
         raise SceneError(
-            f"exact.gradient: ({given[0]:.4g}, {given[1]:.4g}) at ({x[k]:.4g}, {y[k]:.4g}), where "
-            f"differences of u give ({found[0]:.4g}, {found[1]:.4g}); give du/dx and du/dy"
+            f"{field}: {given[k]:.4g} at ({x[k]:.4g}, {y[k]:.4g}), where differences of {what} "
+            f"give {found[k]:.4g}; correct one of the two"
         )
 
 

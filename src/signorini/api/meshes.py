@@ -270,7 +270,7 @@ def polygon(
     """
     given = {"corners": corners, "holes": holes} | ({} if sides is None else {"sides": sides})
     numbered = [f"side-{k}" for k in range(_length(corners))]
-    names = [*(sides or numbered), *(f"hole-{k}" for k in range(_length(holes)))]
+    names = [*(sides or numbered or ["side-0"]), *(f"hole-{k}" for k in range(_length(holes)))]
     section = _validated(n, {"kind": "polygon"} | given, names)
     return _given(root_mesh(section, int(n)), 1.0 / n, int(n))
 

@@ -12,7 +12,7 @@ from signorini.api.arguments import (
     read_names,
     read_partwise,
 )
-from signorini.api.exact import read_exact_solution
+from signorini.api.exact import check_functions, read_exact_solution
 from signorini.api.meshes import Mesh, as_mesh
 from signorini.api.types import Datum, Names, PartwiseDatum
 from signorini.exact import ExactSolution, derived_data, with_coefficient
@@ -131,7 +131,10 @@ def problem(
     domain, boundary = mesh.labelled(labels, "neumann" if neumann is None else None)
     data = _data(given, truth)
     statement = ProblemStatement(domain, boundary, data, load_quadrature, mesh.coarsest, truth)
-    return discretize(statement, element, mesh.n)
+    found = discretize(statement, element, mesh.n)
+    if truth is not None:
+        check_functions(truth, found.mesh, data.f)
+    return found
 
 
 _READERS: dict[str, Callable[[Any], Any]] = {
@@ -155,7 +158,8 @@ def _check_choices(**given: str | int) -> None:
         is_degree = field == "load_quadrature" and type(value) is int and value in _DEGREES
         if not is_degree and value not in _CHOICES[field]:
             more = ", or a degree from 1 to 60" if field == "load_quadrature" else ""
-            raise SceneError(f"{field}: {described(value)} {nearest(value, _CHOICES[field])}{more}")
+            known = nearest(value, _CHOICES[field])
+            raise SceneError(f"{field}: {described(value)} is not valid; {known}{more}")
 
 
 def _read_data(**given: Any) -> dict[str, Any]:

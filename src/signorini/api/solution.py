@@ -302,5 +302,5 @@ def _saved(figure: "Figure", path: str | Path | None) -> "Figure":
             raise SceneError(
                 f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"
             )
-        save_figure(figure, path)
+        save_figure(figure, path, sealed=False)
     return figure

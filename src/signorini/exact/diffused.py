@@ -56,6 +56,11 @@ class Diffused(ExactSolution):
         return self.u.singular_points
 
     @property
+    def knows_load(self):
+        """Whether that of u is known, and the coefficient can be differentiated."""
+        return self.u.knows_load and not isinstance(self.coefficient, Function)
+
+    @property
     def constant_load(self):
         """Zero where u has no load, else None: not known."""
         return 0.0 if self.u.constant_load == 0.0 else None
@@ -81,9 +86,9 @@ class Diffused(ExactSolution):
         -------
         ndarray
         """
-        if isinstance(self.coefficient, Function):
+        if not self.knows_load:
             raise SceneError(
-                "f: missing; the load under a coefficient that is a function is not derived"
+                "f: missing; the load of functions of a program is not derived, give it"
             )
         k, kx, ky = self.coefficient.value_and_gradient(x, y)
         load = k * self.u.load(x, y)

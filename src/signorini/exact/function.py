@@ -39,6 +39,8 @@ class FunctionSolution(ExactSolution):
     singular_points: tuple[tuple[float, float], ...] = ()
     multiplier: Formula | Function | None = None
 
+    knows_load = False
+
     def value(self, x, y):
         return self.u(x, y)
 
@@ -53,7 +55,7 @@ class FunctionSolution(ExactSolution):
         SceneError
             In any case.
         """
-        raise SceneError("f: missing; the load of an exact solution from callables is not derived")
+        raise SceneError("f: missing; the load of functions of a program is not derived, give it")
 
 
 @dataclass(frozen=True)

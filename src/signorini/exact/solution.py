@@ -26,6 +26,8 @@ class ExactSolution(ABC):
         Where a derivative of u is unbounded; quadrature is refined towards them.
     constant_load : float or None
         The load's value where it is known to be the same everywhere.
+    knows_load : bool
+        Whether `load` can be called: it needs second derivatives.
     coefficient : Formula or None
         Diffusion coefficient k; None where it is 1.
     """
@@ -36,6 +38,7 @@ class ExactSolution(ABC):
     critical_points = ()
     singular_points = ()
     constant_load = None
+    knows_load = True
 
     @abstractmethod
     def value(self, x, y):

@@ -8,7 +8,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from signorini.storage import sealing
+from signorini.storage import replacing, sealing
 
 MM = 1 / 25.4  # inches
 TEXT_WIDTH = 150 / 25.4  # inches; \textwidth of paper/main.tex: figures are included unscaled
@@ -111,7 +111,7 @@ def add_axes(figure, left, bottom, width, height, **options):
     return figure.add_axes(place, **options)
 
 
-def save_figure(figure, path, colours=None):
+def save_figure(figure, path, colours=None, sealed=True):
     """Write a figure as PDF or PNG (200 dpi): same figure, same bytes; never half a file.
 
     Parameters
@@ -123,6 +123,8 @@ def save_figure(figure, path, colours=None):
     colours : int, optional
         At most 256: a PNG keeps so many of its colours, the most frequent, and the others become
         the nearest of these. For pictures with large areas of few colours, a third of the size.
+    sealed : bool, optional
+        Whether its digest is kept in a hidden file beside it, as of every result.
 
     Raises
     ------
@@ -143,7 +145,8 @@ def save_figure(figure, path, colours=None):
     path = Path(path)
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
-    with matplotlib.rc_context(STYLE), sealing(path, "wb") as stream:
+    write = sealing if sealed else replacing
+    with matplotlib.rc_context(STYLE), write(path, "wb") as stream:
         if colours and path.suffix == ".png":
             _save_reduced(figure, stream, colours)
         else:

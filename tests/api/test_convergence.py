@@ -1,0 +1,81 @@
+"""Tables of errors and slopes: a program's are those of the scene that says the same."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import signorini
+from signorini.commands.program import main
+from signorini.exceptions import SignoriniError
+
+SIDES = ["right", "top", "left"]
+SCENE = {
+    "domain": {"kind": "rectangle"},
+    "boundary": dict.fromkeys(SIDES, "dirichlet") | {"bottom": "contact"},
+    "levels": [4, 8, 16],
+    "norms": ["l2", "h1_semi", "h1", "energy", "trace_l2", "multiplier_l2", "critical_points"],
+    "truth": {"kind": "exact", "family": "smooth"},
+}
+
+
+def both(n):
+    mesh = signorini.rectangle(n)
+    asked = {"exact": "smooth", "dirichlet": SIDES, "contact": "bottom"}
+    return [signorini.problem(mesh, element, **asked) for element in ("P1", "CR")]
+
+
+def test_a_program_and_a_scene_that_say_the_same_have_the_same_table():
+    theirs = signorini.convergence(signorini.Scene.from_dict(SCENE))
+    ours = signorini.convergence(both, SCENE["levels"], "smooth")
+    pd.testing.assert_frame_equal(ours, theirs)
+
+
+def test_the_table_of_a_scene_is_the_errors_csv_of_its_command(tmp_path):
+    scene = Path("config/scenes/corner.yaml")
+    main(["errors", str(scene), "-o", str(tmp_path / "errors.csv")])
+    theirs = pd.read_csv(tmp_path / "errors.csv", keep_default_na=False)
+    ours = signorini.convergence(signorini.load_scene(scene))
+    assert list(ours.columns) == list(theirs.columns)
+    pd.testing.assert_frame_equal(ours, theirs, check_dtype=False)
+
+
+def test_slopes_are_those_of_the_theory():
+    frame = signorini.rates(signorini.convergence(both, [8, 16, 32], "smooth"))
+    fit = frame[frame["kind"] == "fit"].set_index(["element", "norm"])["slope"]
+    for element in ("P1", "CR"):
+        assert fit[element, "l2"] == pytest.approx(2.0, abs=0.1)
+        assert fit[element, "energy"] == pytest.approx(1.0, abs=0.1)
+        assert fit[element, "multiplier_l2"] == pytest.approx(1.0, abs=0.15)
+
+
+def test_against_a_finer_solution():
+    def problem(n):
+        mesh = signorini.rectangle(n)
+        return signorini.problem(mesh, "P1", f=-1, dirichlet="top", contact="bottom")
+
+    frame = signorini.convergence(problem, [4, 8], signorini.solve(problem(32)), ["l2"])
+    assert frame["n"].tolist() == [4, 8]
+    assert frame["l2"].is_monotonic_decreasing
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: signorini.convergence(3), "scene: 3 (int) is neither a Scene nor a function"),
+        (lambda: signorini.convergence(both), "levels: missing"),
+        (lambda: signorini.convergence(both, [4]), "truth: missing"),
+        (lambda: signorini.convergence(lambda n: [n], [4], "x"), "problem_of_level: 4 (int) for n"),
+        (
+            lambda: signorini.convergence(signorini.Scene.from_dict(SCENE), [4]),
+            "levels: [4] (list) is not needed, the scene has it; drop it",
+        ),
+        (lambda: signorini.rates(pd.DataFrame({"h": [1.0]})), "no column 'element'"),
+        (lambda: signorini.rates(signorini.convergence(both, [4], "smooth")), "two levels"),
+    ],
+)
+def test_what_is_wrong_is_told_in_one_line(make, words):
+    with pytest.raises(SignoriniError) as caught:
+        make()
+    assert "\n" not in str(caught.value)
+    assert words in str(caught.value)

@@ -32,13 +32,13 @@ def add_arguments(parser):
 def run(arguments):
     """Draw every figure."""
     scene = scene_of(arguments.scene)
-    asked = scene.section("elements", "levels", "norms")
-    errors = read_errors(arguments.errors, asked)
-    rates = read_rates(arguments.rates, asked, numbers=("slope",))
+    sections = scene.section("elements", "levels", "norms")
+    errors = read_errors(arguments.errors, sections)
+    rates = read_rates(arguments.rates, sections, numbers=("slope",))
     for norm, *paths in arguments.figure:
-        if norm not in asked["norms"]:
+        if norm not in sections["norms"]:
             raise SignoriniError(
-                f"--figure {norm}: not among norms; {nearest(norm, asked['norms'])}"
+                f"--figure {norm}: not among norms; {nearest(norm, sections['norms'])}"
             )
         figure = draw_convergence(errors, norm, slopes_of(rates, norm, scene.document["slope"]))
         for path in paths:

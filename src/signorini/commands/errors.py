@@ -42,10 +42,10 @@ def run(arguments):
         domain = domain_of(scene, arguments.mesh)
         reference = read_solution(arguments.reference) if arguments.reference else None
         errors = scene_errors(scene, domain, norms, reference)
-        found = solve_levels(scene)
+        solutions = solve_levels(scene)
         if arguments.solutions:
-            found = map(read_solution, arguments.solutions)
-        rows = [row(solution, errors) for solution in found]
+            solutions = map(read_solution, arguments.solutions)
+        rows = [row(solution, errors) for solution in solutions]
     if arguments.output:
         write_csv(arguments.output, rows)
         return Outcome(f"errors: {len(rows)} solutions", rows)

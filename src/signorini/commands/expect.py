@@ -32,10 +32,10 @@ def run(arguments):
     expected = scene.document.get("expect")
     if expected is None:
         raise SceneError(f"{scene.source}: there is no section expect; add one")
-    asked = scene.section("elements", "levels", "norms")
-    errors, rates = read_errors(arguments.errors, asked), []
+    sections = scene.section("elements", "levels", "norms")
+    errors, rates = read_errors(arguments.errors, sections), []
     if arguments.rates:
-        rates = read_rates(arguments.rates, asked, numbers=("slope",))
+        rates = read_rates(arguments.rates, sections, numbers=("slope",))
         rates = [row for row in rates if row["kind"] == scene.document["slope"]]
     elif expected["slopes"]:
         raise SceneError(f"{scene.source}: expect.slopes needs --rates, the file rates.csv")

@@ -46,8 +46,8 @@ def run(arguments):
 def _convergence(scene, errors, rates):
     """A figure for each norm."""
     norms = [norm for norm in scene.document["norms"] if norm in RATED]
-    asked = scene.section("elements", "levels") | {"norms": norms}
-    errors = read_errors(errors, asked)
-    rates = read_rates(rates, asked, numbers=("slope",))
+    sections = scene.section("elements", "levels") | {"norms": norms}
+    errors = read_errors(errors, sections)
+    rates = read_rates(rates, sections, numbers=("slope",))
     kind = scene.document["slope"]
     return {norm: draw_convergence(errors, norm, slopes_of(rates, norm, kind)) for norm in norms}

@@ -21,9 +21,9 @@ def add_arguments(parser):
 
 def run(arguments):
     """Fit, and write or show the table; the errors must hold what the scene asks for."""
-    asked = scene_of(arguments.scene).section("elements", "levels")
-    norms = [norm for norm in RATED if norm in read_errors(arguments.errors, asked)[0]]
-    rows = rate_rows(read_errors(arguments.errors, asked, numbers=("h", *norms)))
+    sections = scene_of(arguments.scene).section("elements", "levels")
+    norms = [norm for norm in RATED if norm in read_errors(arguments.errors, sections)[0]]
+    rows = rate_rows(read_errors(arguments.errors, sections, numbers=("h", *norms)))
     if arguments.output:
         write_csv(arguments.output, rows)
         return Outcome(f"rates: {len(rows)} slopes", rows)

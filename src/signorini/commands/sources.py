@@ -56,15 +56,15 @@ def modules_from(*names, reader=False):
     tuple of Path
         Sorted; absolute.
     """
-    found = set()
+    loaded = set()
     waiting = [file for name in names for file in _executed(name)]
     left_out = () if reader else _executed(_READER)[-1:]
     while waiting:
         path = waiting.pop()
-        if path not in found and path not in left_out:
-            found.add(path)
+        if path not in loaded and path not in left_out:
+            loaded.add(path)
             waiting += _named(path)
-    return tuple(sorted(found))
+    return tuple(sorted(loaded))
 
 
 @cache

@@ -23,12 +23,12 @@ def add_arguments(parser):
 def run(arguments):
     """Write the table, or show it in Markdown where no file is named."""
     scene = scene_of(arguments.scene)
-    asked = scene.section("elements", "levels", "norms")
-    errors = read_errors(arguments.errors, asked)
-    rates = read_rates(arguments.rates, asked)
+    sections = scene.section("elements", "levels", "norms")
+    errors = read_errors(arguments.errors, sections)
+    rates = read_rates(arguments.rates, sections)
     shown = {
-        "norms": asked["norms"],
-        "elements": asked["elements"],
+        "norms": sections["norms"],
+        "elements": sections["elements"],
         "kind": scene.document["slope"],
         "note": scene.reference_note or "",
     }

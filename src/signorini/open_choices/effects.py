@@ -29,13 +29,13 @@ def effects_of_options(statement, errors, elements, levels, reference, norms):
     """
     diagonal, load = statement.domain["diagonal"], statement.load_quadrature
     other = {"falling": "rising", "rising": "falling"}[diagonal]
-    asked = (elements, levels, reference, norms)
+    levels_and_norms = (elements, levels, reference, norms)
     seminorm = {"h1": "h1_semi"}
     changed = {
-        "diagonal": _table(with_options(statement, other, load), *asked),
-        "load": _table(with_options(statement, diagonal, "exact"), *asked),
+        "diagonal": _table(with_options(statement, other, load), *levels_and_norms),
+        "load": _table(with_options(statement, diagonal, "exact"), *levels_and_norms),
         "norm": {(e, n, norm): errors[e, n, seminorm.get(norm, norm)] for e, n, norm in errors},
-        "quadrature": _table(statement, *asked, quadrature="centroid"),
+        "quadrature": _table(statement, *levels_and_norms, quadrature="centroid"),
     }
     entries = {(e, n, norm): errors[e, n, norm] for e in elements for n in levels for norm in norms}
     return {option: _largest_change(entries, table) for option, table in changed.items()}
@@ -49,8 +49,8 @@ def _table(statement, elements, levels, reference, norms, quadrature="exact"):
     table = {}
     for element, n in pairs:
         mesh, u = solved[element, n]
-        found = truth.of(mesh, element, u)
-        table |= {(element, n, norm): found[norm] for norm in norms}
+        measured = truth.of(mesh, element, u)
+        table |= {(element, n, norm): measured[norm] for norm in norms}
     return table
 
 

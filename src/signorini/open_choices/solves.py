@@ -26,13 +26,13 @@ def with_options(statement, diagonal, load):
     return replace(statement, domain=domain, load_quadrature=load)
 
 
-def solutions(statement, asked, level=None):
+def solutions(statement, pairs, level=None):
     """Solve a statement.
 
     Parameters
     ----------
     statement : ProblemStatement
-    asked : iterable of tuple
+    pairs : iterable of tuple
         Element and level n of each solution.
     level : callable, optional
         From n to its triangulation, where it has been made already.
@@ -43,8 +43,8 @@ def solutions(statement, asked, level=None):
         (element, n) -> (mesh, u).
     """
     level = level or statement.triangulations.level
-    found = {}
-    for element, n in asked:
+    solved = {}
+    for element, n in pairs:
         mesh = level(n)
-        found[element, n] = mesh, solve(discretize_on(mesh, element, statement)).u
-    return found
+        solved[element, n] = mesh, solve(discretize_on(mesh, element, statement)).u
+    return solved

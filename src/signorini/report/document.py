@@ -255,8 +255,8 @@ def _latex_words(text):
     return re.sub(r"(?<![\w{}])-(?=\d)", "$-$", text)
 
 
-def _power_of_ten(found):
-    mantissa, sign, exponent = found.groups()
+def _power_of_ten(match):
+    mantissa, sign, exponent = match.groups()
     times = "" if mantissa == "1" else rf"{mantissa}\times"
     return rf"${times}10^{{{sign.strip('+')}{exponent}}}$"
 

@@ -43,7 +43,7 @@ def describe(packages=OURS):
         "threads": int(os.environ.get("OMP_NUM_THREADS", os.cpu_count())),
         "load": os.getloadavg()[0],
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "versions": {name: found for name in packages if (found := _version(name))},
+        "versions": {name: number for name in packages if (number := _version(name))},
     }
 
 

@@ -15,11 +15,11 @@ from signorini.storage import read_csv, read_json
 from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS, series
 
 _FIGURES = {
-    "error": lambda found, rivals, summary: benchmark.draw_error(found),
-    "dofs": lambda found, rivals, summary: benchmark.draw_dofs(found),
-    "growth": lambda found, rivals, summary: benchmark.draw_growth(found, summary["growth"]),
-    "stages": lambda found, rivals, summary: benchmark.draw_stages(found),
-    "rivals": lambda found, rivals, summary: benchmark.draw_rivals(rivals, summary["titles"]),
+    "error": lambda curves, rivals, summary: benchmark.draw_error(curves),
+    "dofs": lambda curves, rivals, summary: benchmark.draw_dofs(curves),
+    "growth": lambda curves, rivals, summary: benchmark.draw_growth(curves, summary["growth"]),
+    "stages": lambda curves, rivals, summary: benchmark.draw_stages(curves),
+    "rivals": lambda curves, rivals, summary: benchmark.draw_rivals(rivals, summary["titles"]),
 }
 
 

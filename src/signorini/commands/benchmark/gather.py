@@ -34,20 +34,20 @@ def add_arguments(parser):
 def run(arguments):
     """Gather, and write benchmark.csv, rivals.csv and summary.json."""
     settings = settings_of(arguments)
-    asked = {scene.name: scene.section("elements", "levels") for scene in scenes_of(arguments)}
+    sections = {scene.name: scene.section("elements", "levels") for scene in scenes_of(arguments)}
     shown = {
-        scene.name: asked[scene.name] | {"levels": shown_levels(settings, scene)}
+        scene.name: sections[scene.name] | {"levels": shown_levels(settings, scene)}
         for scene in scenes_of(arguments)
     }
     errors = _errors({path.stem: path for path in arguments.errors}, shown)
-    coarse = _errors({path.parent.name: path for path in arguments.coarse}, asked)
+    coarse = _errors({path.parent.name: path for path in arguments.coarse}, sections)
     points = with_errors(_rows(arguments.points, POINT_NUMBERS), errors)
     rivals = _rows(arguments.rivals, RIVAL_NUMBERS)
     write_csv(arguments.output / "benchmark.csv", points)
     write_csv(arguments.output / "rivals.csv", rivals)
     titles = {name: rival.title for name, rival in RIVALS.items()}
-    found = summary(points, rivals, coarse, errors) | {"titles": titles}
-    write_json(arguments.output / "summary.json", found)
+    totals = summary(points, rivals, coarse, errors) | {"titles": titles}
+    write_json(arguments.output / "summary.json", totals)
     measured = sum(row["status"] == "measured" for row in points)
     left_out = len(points) - measured
     return Outcome(
@@ -55,10 +55,11 @@ def run(arguments):
     )
 
 
-def _errors(files, asked):
+def _errors(files, sections):
     """Scene -> the rows of its errors."""
     return {
-        name: read_errors(path, asked[name], numbers=ALWAYS_NAMED) for name, path in files.items()
+        name: read_errors(path, sections[name], numbers=ALWAYS_NAMED)
+        for name, path in files.items()
     }
 
 

@@ -32,18 +32,18 @@ def run(arguments):
     from signorini.studies.stability.digits import variant
 
     scene = scene_of(arguments.scene)
-    asked = asked_of(scene, arguments.quick)
-    rows = variant(arguments.variant, scene.problem_statement, asked, arguments.samples)
+    sections = sections_of(scene, arguments.quick)
+    rows = variant(arguments.variant, scene.problem_statement, sections, arguments.samples)
     if arguments.threads > 1:
         rows = [row | {"variant": f"{arguments.threads}-threads-{row['variant']}"} for row in rows]
     write_csv(arguments.output, rows)
     return Outcome(f"digits: {arguments.variant}, {len(rows)} numbers")
 
 
-def asked_of(scene, quick):
+def sections_of(scene, quick):
     """What the scene asks, and no finer where the suite is to be quick."""
-    asked = scene.section("elements", "levels", "truth", "norms")
+    sections = scene.section("elements", "levels", "truth", "norms")
     if not quick:
-        return asked
-    truth = asked["truth"] | {"n": _QUICK_REFERENCE}
-    return asked | {"levels": asked["levels"][:_QUICK_LEVELS], "truth": truth}
+        return sections
+    truth = sections["truth"] | {"n": _QUICK_REFERENCE}
+    return sections | {"levels": sections["levels"][:_QUICK_LEVELS], "truth": truth}

@@ -23,13 +23,13 @@ def run(arguments):
     """Write the page and the tables beside the pieces."""
     folder, limit = arguments.folder, arguments.time_limit
     parts = read_parts(folder)
-    found = summarise(parts, limit)
+    tables = summarise(parts, limit)
     machine = read_json(folder / "machine.json")
     for layout, ending in (("latex", "tex"), ("markdown", "md")):
-        text = page(parts, found, layout, machine, limit, arguments.seeds)
+        text = page(parts, tables, layout, machine, limit, arguments.seeds)
         write_text(folder / f"stability.{ending}", text)
-    for name, rows in found.items():
+    for name, rows in tables.items():
         write_csv(folder / f"{name}.csv", rows)
-    claims = found["claims"]
+    claims = tables["claims"]
     met = sum(row["met"] for row in claims)
     return Outcome(f"stability: {met} of {len(claims)} claims met")

@@ -52,12 +52,13 @@ def series(points):
     Examples
     --------
     >>> point = {"scene": "paper", "element": "P1", "method": "direct", "status": "measured"}
-    >>> found = series([point | {"n": 4}, point | {"n": 2}, point | {"n": 8, "status": "skipped"}])
-    >>> [row["n"] for row in found["paper", "P1", "direct"]]
+    >>> points = [point | {"n": 4}, point | {"n": 2}, point | {"n": 8, "status": "skipped"}]
+    >>> by_series = series(points)
+    >>> [row["n"] for row in by_series["paper", "P1", "direct"]]
     [2, 4]
     """
-    found = {}
+    by_series = {}
     for row in points:
         if row["status"] == "measured":
-            found.setdefault(tuple(row[key] for key in SERIES), []).append(row)
-    return {key: sorted(rows, key=lambda row: int(row["n"])) for key, rows in found.items()}
+            by_series.setdefault(tuple(row[key] for key in SERIES), []).append(row)
+    return {key: sorted(rows, key=lambda row: int(row["n"])) for key, rows in by_series.items()}

@@ -110,16 +110,16 @@ def rows_apart(rows, seconds):
 
     Returns
     -------
-    found : list
+    collected : list
         The items of all the lists.
     trouble : str or None
         Why there are no more: None at the generator's own end.
     """
-    found, worker = [], Worker(partial(next, rows, None), seconds)
+    collected, worker = [], Worker(partial(next, rows, None), seconds)
     while (more := worker.ask()) is not None:
-        found += more
+        collected += more
     worker.close()
-    return found, worker.trouble
+    return collected, worker.trouble
 
 
 def time_limit(limit):

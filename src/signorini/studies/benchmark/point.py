@@ -121,8 +121,8 @@ def spread(name, values):
     >>> spread("total", [2.0, 1.0, 4.0])
     {'total': 2.0, 'total_min': 1.0, 'total_max': 4.0}
     """
-    found = statistics.median(values), min(values), max(values)
-    return dict(zip(with_range(name), found, strict=True))
+    middle_and_range = statistics.median(values), min(values), max(values)
+    return dict(zip(with_range(name), middle_and_range, strict=True))
 
 
 def why_not(before, limits):

@@ -9,7 +9,7 @@ from signorini.studies.benchmark.summary import TARGETS, better, fastest
 PAGE = "studies/benchmark/page.md.j2"
 
 
-def page(layout, points, rivals, summary, machine, asked):
+def page(layout, points, rivals, summary, machine, settings):
     """Put the page together.
 
     Parameters
@@ -21,37 +21,37 @@ def page(layout, points, rivals, summary, machine, asked):
         Of `summary.summary`, with the rivals' ``titles``.
     machine : dict
         Of `machine.describe`.
-    asked : dict
+    settings : dict
         config/benchmark.yaml, and the level of each scene's own reference under ``truths``.
 
     Returns
     -------
     str
     """
-    found, titles = series(points), summary["titles"]
+    curves, titles = series(points), summary["titles"]
     shown = {
         "judged": {"tolerance": TOLERANCE, "solved": SOLVED, "inaccurate": INACCURATE},
-        "difference": max(row["difference"] for rows in found.values() for row in rows),
-        "methods": list(dict.fromkeys(method for _, _, method in found)),
+        "difference": max(row["difference"] for rows in curves.values() for row in rows),
+        "methods": list(dict.fromkeys(method for _, _, method in curves)),
         "counts": COUNTS,
         "titles": titles,
         "bias": summary["reference_bias"],
-        "finest": _finest(found, summary["growth"]),
+        "finest": _finest(curves, summary["growth"]),
         "skipped": _skipped(points),
         "comparisons": _comparisons(summary),
         "absent": {row["rival"]: row["note"] for row in rivals if row["status"] == "absent"},
         "ratios": _ratios(rivals),
     }
-    shown |= _reach(found, summary["reach"])
-    return render(PAGE, layout, **shown, machine=machine, asked=asked)
+    shown |= _reach(curves, summary["reach"])
+    return render(PAGE, layout, **shown, machine=machine, settings=settings)
 
 
-def _reach(found, reached):
+def _reach(curves, reached):
     """What each element spends to reach each error by its fastest route, and which spends less."""
     best, rows = fastest(reached), []
-    elements = sorted({element for _, element, _ in found}, reverse=True)  # P1 first
+    elements = sorted({element for _, element, _ in curves}, reverse=True)  # P1 first
     for norm in PAPER_NORMS:
-        for scene in dict.fromkeys(scene for scene, _, _ in found):
+        for scene in dict.fromkeys(scene for scene, _, _ in curves):
             for target in TARGETS:
                 spent = best.get((scene, norm, target), {})
                 what = {"norm": norm, "scene": scene, "target": target}
@@ -60,13 +60,13 @@ def _reach(found, reached):
     return {"elements": elements, "reach": rows, "reach_groups": groups}
 
 
-def _finest(found, growth):
+def _finest(curves, growth):
     """The finest point of each series, with the exponents of its time and memory."""
     exponents = {}
     for row in growth:
         key = tuple(row[name] for name in SERIES)
         exponents.setdefault(key, {})[row["quantity"]] = row["exponent"]
-    return [rows[-1] | {"exponents": exponents.get(key, {})} for key, rows in found.items()]
+    return [rows[-1] | {"exponents": exponents.get(key, {})} for key, rows in curves.items()]
 
 
 def _skipped(points):
@@ -87,10 +87,10 @@ def _comparisons(summary):
 
 def _ratios(rivals):
     """Route of ours -> problem -> rival -> row."""
-    found = {}
+    by_route = {}
     for row in rivals:
         if row["ratio"] is not None:
-            problems = found.setdefault(row["ours"], {})
+            problems = by_route.setdefault(row["ours"], {})
             problem = row["scene"], row["element"], row["n"]
             problems.setdefault(problem, {})[row["rival"]] = row
-    return found
+    return by_route

@@ -33,10 +33,10 @@ def with_errors(points, errors):
     list of dict
         The norms are None where there are no errors.
     """
-    found = {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
+    by_level = {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
     rows = []
     for row in points:
-        known = found.get((row["scene"], *_level(row)), {})
+        known = by_level.get((row["scene"], *_level(row)), {})
         rows.append(row | {norm: known.get(norm) for norm in ALWAYS_NAMED})
     return rows
 
@@ -62,10 +62,10 @@ def reach(points, targets=TARGETS):
         target already, or "not reached".
     """
     rows = []
-    for key, found in series(points).items():
+    for key, levels in series(points).items():
         for norm, target in product(PAPER_NORMS, targets):
             what = dict(zip(SERIES, key, strict=True)) | {"norm": norm, "target": target}
-            status, costs = _cost([row for row in found if row[norm]], norm, target)
+            status, costs = _cost([row for row in levels if row[norm]], norm, target)
             rows.append(what | costs | {"status": status})
     return rows
 
@@ -125,15 +125,15 @@ def better(rows):
     if [row["status"] for row in rows.values()] != ["between levels"] * 2:
         return {}
     (one, a), (other, b) = rows.items()
-    found = {}
+    cheaper = {}
     for cost in ("total", "dofs", "memory"):
         x, y = _at_least(a, cost), _at_least(b, cost)
-        found[cost] = (one if x < y else other, max(x, y) / min(x, y))
+        cheaper[cost] = (one if x < y else other, max(x, y) / min(x, y))
     if min(a["memory"], b["memory"]) < _ROUND_OFF:
-        del found["memory"]
+        del cheaper["memory"]
     if a["total_min"] <= b["total_max"] and b["total_min"] <= a["total_max"]:
-        found["total"] = (None, found["total"][1])
-    return found
+        cheaper["total"] = (None, cheaper["total"][1])
+    return cheaper
 
 
 def growth(points):
@@ -155,8 +155,8 @@ def growth(points):
     [('total', 1.0), ('memory', 1.5)]
     """
     rows = []
-    for key, found in series(points).items():
-        finest = found[-_FITTED:]
+    for key, levels_of_series in series(points).items():
+        finest = levels_of_series[-_FITTED:]
         for quantity in ("total", "memory"):
             values = [row[quantity] for row in finest]
             if len(finest) < 3 or min(values) <= 0:
@@ -195,9 +195,9 @@ def reference_bias(coarse, fine):
     return frame[frame["coarse"] != 0.0].reset_index().to_dict("records")
 
 
-def _errors(found):
+def _errors(errors):
     """The errors that there are, by scene, element, n and norm."""
-    frame = pd.DataFrame([{"scene": name, **row} for name, rows in found.items() for row in rows])
+    frame = pd.DataFrame([{"scene": name, **row} for name, rows in errors.items() for row in rows])
     frame = frame.astype({"n": int}).set_index(["scene", "element", "n"])
     return frame[list(PAPER_NORMS)].rename_axis(columns="norm").stack().dropna().astype(float)
 
@@ -226,7 +226,7 @@ def comparisons(rivals):
     frame = pd.DataFrame(rivals)
     frame = frame[frame["ratio"].notna() & (frame["status"] != "failed")]
     frame = frame.assign(win=frame["ratio_max"] < 1.0, loss=frame["ratio_min"] > 1.0)
-    found = frame.groupby(["rival", "ours"], sort=False).agg(
+    by_route = frame.groupby(["rival", "ours"], sort=False).agg(
         problems=("ratio", "size"),
         wins=("win", "sum"),
         losses=("loss", "sum"),
@@ -234,8 +234,8 @@ def comparisons(rivals):
         ratio_min=("ratio_min", "min"),
         ratio_max=("ratio_max", "max"),
     )
-    found["even"] = found["problems"] - found["wins"] - found["losses"]
-    return found.reset_index().to_dict("records")
+    by_route["even"] = by_route["problems"] - by_route["wins"] - by_route["losses"]
+    return by_route.reset_index().to_dict("records")
 
 
 def verdicts(rivals):

@@ -71,9 +71,9 @@ def combinations(errors, published):
             columns = {"l2": "l2", "h1": column}
             series = {(norm, e): table[columns[norm], e].tolist() for norm, e in SERIES}
             fitted = {pair: slopes([1.0 / n for n in levels], series[pair]) for pair in SERIES}
-            for kind in SLOPES:
-                row = dict(zip(_SHARED, shared, strict=True)) | {"h1": h1, "slope": kind}
-                rates = {pair: found[kind] for pair, found in fitted.items()}
+            for slope in SLOPES:
+                row = dict(zip(_SHARED, shared, strict=True)) | {"h1": h1, "slope": slope}
+                rates = {pair: by_kind[slope] for pair, by_kind in fitted.items()}
                 row |= _agreement(printed, levels, series, rates)
                 rows.append(row | _conclusion(series, rates))
     return rows
@@ -163,8 +163,8 @@ def where(rows, **options):
 
 def one_at_a_time(rows):
     """The paper's combination, and those that differ from it in one option, in their order."""
-    found = where(rows, **PAPER)
+    chosen = where(rows, **PAPER)
     for name, values in OPTIONS.items():
         for value in values[1:]:
-            found += where(rows, **PAPER | {name: value})
-    return found
+            chosen += where(rows, **PAPER | {name: value})
+    return chosen

@@ -45,7 +45,7 @@ def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, ru
         solved = solutions(with_options(statement, diagonal, load), [reference, *pairs], level)
         truth = "P1", solved[reference][1]
         for element, n in pairs:
-            found = overlay(n).errors(truth, (element, solved[element, n][1]), rules)
+            by_rule = overlay(n).errors(truth, (element, solved[element, n][1]), rules)
             key = {"diagonal": diagonal, "load": load, "element": element, "n": n}
-            rows += [key | {"rule": rule} | norms for rule, norms in found.items()]
+            rows += [key | {"rule": rule} | norms for rule, norms in by_rule.items()]
     return rows

@@ -115,6 +115,6 @@ def _rankings(pairs, levels):
 
 def _loads(pairs):
     """Load rule -> ranges over the diagonals of the ratio in L2 and of the slopes."""
-    found = pairs.groupby("load", sort=False)[["l2_ratio", *_SLOPES]]
-    low, high = found.min(), found.max()
+    by_load = pairs.groupby("load", sort=False)[["l2_ratio", *_SLOPES]]
+    low, high = by_load.min(), by_load.max()
     return {load: list(zip(low.loc[load], high.loc[load], strict=True)) for load in low.index}

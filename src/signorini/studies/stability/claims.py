@@ -26,13 +26,13 @@ def claims(success, statuses, digits, extremes):
     list of dict
         ``claim``, ``measured``, ``limit``, ``met``.
     """
-    found = _solves(success, statuses)
-    found["digits"] = _all(row["digits"] >= DIGITS for row in digits)
-    found |= _scales(**{kind: extremes[kind] for kind in ("scaling", "sizes", "offsets")})
-    found |= _contact(extremes["critical-points"], extremes["contact-sets"])
-    found |= _walk(extremes["walk"])
+    checked = _solves(success, statuses)
+    checked["digits"] = _all(row["digits"] >= DIGITS for row in digits)
+    checked |= _scales(**{kind: extremes[kind] for kind in ("scaling", "sizes", "offsets")})
+    checked |= _contact(extremes["critical-points"], extremes["contact-sets"])
+    checked |= _walk(extremes["walk"])
     sentences = _sentences(extremes)
-    return [{"claim": sentences[name]} | row for name, row in found.items()]
+    return [{"claim": sentences[name]} | row for name, row in checked.items()]
 
 
 def _sentences(extremes):

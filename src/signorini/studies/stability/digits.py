@@ -36,9 +36,9 @@ def table(statement, scene, solved):
     widths, rows = [1.0 / n for n in scene["levels"]], []
     for element in scene["elements"]:
         problems = [discretize(statement, element, n) for n in scene["levels"]]
-        found = [truth.of(problem.mesh, element, solved(problem)) for problem in problems]
+        by_level = [truth.of(problem.mesh, element, solved(problem)) for problem in problems]
         for norm in scene["norms"]:
-            errors = [level[norm] for level in found]
+            errors = [level[norm] for level in by_level]
             values = [*errors, slopes(widths, errors)["mean"]]
             rows += [
                 {"element": element, "n": n, "norm": norm, "value": value}
@@ -51,8 +51,8 @@ def by_route(method):
     """Solve by a route; where it does not apply, by the default one."""
 
     def solved(problem):
-        found = attempt(problem, method)
-        return found.result().u if found.applies else solve(problem).u
+        tried = attempt(problem, method)
+        return tried.result().u if tried.applies else solve(problem).u
 
     return solved
 

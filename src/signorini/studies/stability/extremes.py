@@ -46,8 +46,8 @@ def _numbers(problem, coarse, method):
     """u, contact force, and the errors of a coarser solution."""
     solution, coarse_u = solve(problem, method), solve(coarse, method).u
     truth = ReferenceErrors(problem.mesh, problem.element, solution.u)
-    found = truth.of(coarse.mesh, coarse.element, coarse_u)
-    return np.concatenate([solution.u, solution.multiplier, list(found.values())])
+    errors = truth.of(coarse.mesh, coarse.element, coarse_u)
+    return np.concatenate([solution.u, solution.multiplier, list(errors.values())])
 
 
 def _times(problem, power):

@@ -26,9 +26,9 @@ def frame(rows):
     >>> frame([{"element": "P1", "error": "1e-3"}, {"element": "CR", "error": ""}])["error"].max()
     np.float64(0.001)
     """
-    found = pd.DataFrame(rows)
-    numbers = found.columns.difference(_TEXTS)
-    return found.assign(**found[numbers].replace("", np.nan).astype(float))
+    table = pd.DataFrame(rows)
+    numbers = table.columns.difference(_TEXTS)
+    return table.assign(**table[numbers].replace("", np.nan).astype(float))
 
 
 def read_parts(folder):

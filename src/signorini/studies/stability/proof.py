@@ -35,11 +35,11 @@ def proofs(problem):
     """
     problem.A  # noqa: B018 (assembled before the clock starts, as for the rivals)
     rows, truth = [], None
-    for found in attempts(problem, ("auto", *METHODS)):
-        truth = truth or _truth(problem, found.solution)
-        name = "ours" if found.method == "auto" else f"ours/{found.method}"
-        told = proof(problem, found.solution, str(found.error or ""), truth)
-        rows.append({"solver": name, "seconds": found.seconds} | told)
+    for attempt in attempts(problem, ("auto", *METHODS)):
+        truth = truth or _truth(problem, attempt.solution)
+        name = "ours" if attempt.method == "auto" else f"ours/{attempt.method}"
+        judged = proof(problem, attempt.solution, str(attempt.error or ""), truth)
+        rows.append({"solver": name, "seconds": attempt.seconds} | judged)
     return rows
 
 
@@ -78,11 +78,11 @@ def proof(problem, solution, refused, truth):
           ``rounded_residual``, that of the truth rounded to it.
     """
     decided = None if solution is None else solution.active & ~solution.undecided
-    found = _limits(problem, truth, decided) | {"needless": 0}
+    columns = _limits(problem, truth, decided) | {"needless": 0}
     if solution is None:
         words = {"status": "refused", "refused": refused[:_LETTERS]}
-        return found | words | {"claimed": False, "residual": np.inf, "iterations": 0}
-    found |= {
+        return columns | words | {"claimed": False, "residual": np.inf, "iterations": 0}
+    columns |= {
         "claimed": True,
         "residual": kkt_residual(problem, solution.u)[0],
         "iterations": solution.iterations,
@@ -92,14 +92,14 @@ def proof(problem, solution, refused, truth):
         "undecided": int(solution.undecided.sum()),
     }
     if truth is None or truth.error > TRUSTED:
-        return found | dict.fromkeys(_ERRORS, np.nan)
+        return columns | dict.fromkeys(_ERRORS, np.nan)
     errors = (
         truth.distance(solution.u),
         truth.multiplier_distance(solution.multiplier, decided),
         truth.wrong_side(solution.active, solution.undecided),
     )
     needless = truth.needless(solution.undecided, NEEDLESS)
-    return found | dict(zip(_ERRORS, errors, strict=True)) | {"needless": needless}
+    return columns | dict(zip(_ERRORS, errors, strict=True)) | {"needless": needless}
 
 
 def _limits(problem, truth, decided):

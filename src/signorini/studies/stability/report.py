@@ -35,23 +35,23 @@ def summarise(parts, time_limit):
         list of dict.
     """
     success = parts["success"]
-    found = {
+    tables = {
         "solvers": summaries.solvers(success, time_limit),
         "statuses": summaries.statuses(success),
         "estimates": summaries.estimates(success),
         "digits": summaries.digits(parts["digits"]),
         "crossings": summaries.crossings(errors_of(parts["floor"])),
     }
-    met = claims(success, found["statuses"], found["digits"], parts["extremes"])
-    return {"claims": met} | found
+    met = claims(success, tables["statuses"], tables["digits"], parts["extremes"])
+    return {"claims": met} | tables
 
 
-def page(parts, found, layout, machine, time_limit, seeds=0):
+def page(parts, tables, layout, machine, time_limit, seeds=0):
     """The page, or the fragment for the paper's appendix; its sentences are in ``page.md.j2``.
 
     Parameters
     ----------
-    parts, found : dict
+    parts, tables : dict
         Of `parts.read_parts` and `summarise`.
     layout : {"markdown", "latex"}
     machine : dict
@@ -68,9 +68,9 @@ def page(parts, found, layout, machine, time_limit, seeds=0):
     return render(
         _PAGE,
         layout,
-        found=found,
-        digits=_digits(found["digits"]),
-        titles={row["solver"]: title(row["solver"]) for row in found["solvers"]},
+        tables=tables,
+        digits=_digits(tables["digits"]),
+        titles={row["solver"]: title(row["solver"]) for row in tables["solvers"]},
         elements=ABBREVIATIONS,
         norms=NORMS,
         limits=LIMITS,
@@ -80,7 +80,7 @@ def page(parts, found, layout, machine, time_limit, seeds=0):
         **_measured(parts),
         slow=SLOW,
         absent=[rival for rival in RIVALS.values() if rival.package not in machine["versions"]],
-        variants=[key[7:] for key in found["digits"][0] if key.startswith("digits_")],
+        variants=[key[7:] for key in tables["digits"][0] if key.startswith("digits_")],
         most_digits=-np.log10(EPS),
     )
 
@@ -97,9 +97,9 @@ def _measured(parts):
     }
 
 
-def _digits(found):
+def _digits(numbers):
     """A row for each level, a column for each norm and element."""
-    cells = {(row["norm"], row["element"], row["n"]): row["digits"] for row in found}
+    cells = {(row["norm"], row["element"], row["n"]): row["digits"] for row in numbers}
     kinds = {cell[:2] for cell in cells}
     columns = [kind for kind in product(NORMS, ABBREVIATIONS) if kind in kinds]
     rows = [

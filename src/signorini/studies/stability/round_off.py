@@ -34,17 +34,17 @@ def errors(family, element, levels):
         Per level: ``family``, ``element``, ``n``, ``method``, ``dofs``, ``l2``, ``h1_semi``,
         ``residual``, ``accuracy``, ``seconds`` of the solve.
     """
-    told = statement(truth={"family": family}, domain=square())
+    problem_statement = statement(truth={"family": family}, domain=square())
     measured = ExactErrors(exact_family(family), PARTS_OF_H1)
     rows = []
     for n in levels:
-        problem = discretize(told, element, n)
+        problem = discretize(problem_statement, element, n)
         start = time.perf_counter()
         solution = solve(problem)
         seconds = time.perf_counter() - start
         row = {"family": family, "element": element, "n": n, "method": solution.method}
-        found = measured.of(problem.mesh, element, solution.u)
-        row |= {"dofs": problem.b.size, **{norm: found[norm] for norm in PARTS_OF_H1}}
+        norms = measured.of(problem.mesh, element, solution.u)
+        row |= {"dofs": problem.b.size, **{norm: norms[norm] for norm in PARTS_OF_H1}}
         row |= {"residual": solution.residual, "accuracy": solution.accuracy}
         rows.append(row | {"seconds": seconds})
     return rows

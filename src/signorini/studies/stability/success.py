@@ -53,11 +53,11 @@ def measure(family, seeds, few, time_limit):
             made = instance(*key, seed)
             what = dict(zip(_KEY, (*key, seed), strict=True)) | {"dofs": made.problem.b.size}
             what |= {"aspect": made.aspect, "busy": os.getloadavg()[0]}
-            rows += [what | _row(**found) for found in proofs(made.problem)]
+            rows += [what | _row(**answer) for answer in proofs(made.problem)]
             for name in rivals:
                 if number < few or (all_of_them and name not in SLOW):
-                    found = worker.ask((*key, seed), name, time_limit)
-                    rows.append(what | (found or _late(name, time_limit)))
+                    answer = worker.ask((*key, seed), name, time_limit)
+                    rows.append(what | (answer or _late(name, time_limit)))
     worker.close()
     return rows
 

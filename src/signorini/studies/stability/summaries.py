@@ -140,14 +140,14 @@ def estimates(rows):
         ``median``, the median of accuracy over error; ``least`` and ``most``, its extremes, an
         error below the floor counting as so much in the last; ``missed``, answers not `estimated`.
     """
-    found = []
+    kinds = []
     for kind, own in _by_kind(rows):
         answers = own[own["claimed"] > 0]
         row = kind | {"answers": len(answers)}
         for which in ("", "multiplier_"):
             row |= {f"{which}{name}": value for name, value in _ratios(answers, which).items()}
-        found.append(row)
-    return found
+        kinds.append(row)
+    return kinds
 
 
 def _ratios(answers, which):
@@ -205,15 +205,15 @@ def crossings(rows):
         last two None for a floor of zero.
     """
     by_kind = dict(list(rows.sort_values("n").set_index("n").groupby(_KIND)))
-    found = []
+    meetings = []
     for element in [element for element in ELEMENTS if ("smooth", element) in by_kind]:
         for norm in PARTS_OF_H1:
             smooth, floor = (by_kind[family, element][norm] for family in ("smooth", "patch"))
             (order, error), (slope, least) = (_power(own.tail(_LAST)) for own in (smooth, floor))
             meeting = (least / error) ** (1.0 / (order - slope)) if least else None
             row = {"element": element, "norm": norm, "order": -order, "floor": floor.iloc[-1]}
-            found.append(row | {"floor_order": slope, "h": 1.0 / meeting if meeting else None})
-    return found
+            meetings.append(row | {"floor_order": slope, "h": 1.0 / meeting if meeting else None})
+    return meetings
 
 
 def growth(rows, column, by="n"):

@@ -37,8 +37,8 @@ def answered(rows):
     """
     undecided = rows["undecided"] > 0
     needed = undecided | (_right_so(rows, "") & _right_so(rows, "multiplier_"))
-    told = (rows["accuracy"] + rows["multiplier_accuracy"]).where(undecided, 0.0)
-    most = np.fmax(np.fmax(RESIDUAL, FEW * rows["rounded_residual"]), told)
+    stated = (rows["accuracy"] + rows["multiplier_accuracy"]).where(undecided, 0.0)
+    most = np.fmax(np.fmax(RESIDUAL, FEW * rows["rounded_residual"]), stated)
     inaccurate = needed & (rows["residual"] <= most)
     solved, refused = rows["residual"] <= RESIDUAL, rows["limit"] > REFUSED_FROM
     by_status = inaccurate.mask(rows["status"] == "solved", solved)

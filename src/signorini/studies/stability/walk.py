@@ -63,8 +63,8 @@ def compare(problem):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return [
-            what | {"method": found.method} | _compared(found.solution, u, condition, size)
-            for found in attempts(problem)
+            what | {"method": tried.method} | _compared(tried.solution, u, condition, size)
+            for tried in attempts(problem)
         ]
 
 

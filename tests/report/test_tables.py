@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from printed_table import PRINTED
-from signorini.report.table_writer import TEX
+from signorini.report.table_latex import TEX
 from signorini.report.tables import error_table, markdown_table
 
 ROOT = Path(__file__).parents[2]

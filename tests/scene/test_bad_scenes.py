@@ -49,6 +49,22 @@ BAD_INPUT = {
     "lower case element": (changed("[P1, CR]", "[cr]"), "known: P1, CR"),
     "element twice": (changed("[P1, CR]", "[P1, P1]"), "list each entry once"),
     "no elements": (changed("[P1, CR]", "[]"), "elements: [] is not valid; needs at least 1"),
+    "table of a norm that is not computed": (
+        VALID + "table: {norms: [energy]}\n",
+        "table.norms: energy is not among norms of the scene; add it there, or drop it",
+    ),
+    "table of a level that is not solved": (
+        VALID + "table: {levels: [2, 16]}\n",
+        "table.levels: 16 is not among levels of the scene",
+    ),
+    "table without a level": (
+        VALID + "table: {columns: [unknowns]}\n",
+        'table.columns: ["unknowns"] names no level; add n or h',
+    ),
+    "table in another notation": (
+        VALID + "table: {notation: engineering}\n",
+        'table.notation: "engineering" is not valid; known: auto, fixed, scientific',
+    ),
     "n not nested": (
         changed("n: 32", "n: 24"),
         "levels: 2 does not nest in the reference, truth.n = 24",

@@ -14,7 +14,7 @@ rule table:
         "results/{scene}/logs/table.log",
     params:
         content=content("table"),
-        asked=parts("elements", "levels", "norms", "slope"),
+        asked=parts("elements", "levels", "norms", "slope", "table"),
         note=reference_note,
     shell:
         "python3 -m signorini table {input.scene:q} {input.errors:q} {input.rates:q}"

@@ -7,6 +7,7 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_scene, scene_of
 from signorini.report.result_files import read_errors, read_rates
+from signorini.report.table_form import form_of
 from signorini.report.tables import error_table, markdown_table
 from signorini.storage import write_text
 
@@ -26,16 +27,11 @@ def run(arguments):
     sections = scene.section("elements", "levels", "norms")
     errors = read_errors(arguments.errors, sections)
     rates = read_rates(arguments.rates, sections)
-    shown = {
-        "norms": sections["norms"],
-        "elements": sections["elements"],
-        "kind": scene.document["slope"],
-        "note": scene.reference_note or "",
-    }
+    form = form_of(scene)
     if not (arguments.tex or arguments.markdown):
-        return Outcome(markdown_table(errors, rates, **shown))
+        return Outcome(markdown_table(errors, rates, form))
     if arguments.tex:
-        write_text(arguments.tex, error_table(errors, rates, **shown))
+        write_text(arguments.tex, error_table(errors, rates, form))
     if arguments.markdown:
-        write_text(arguments.markdown, markdown_table(errors, rates, **shown))
+        write_text(arguments.markdown, markdown_table(errors, rates, form))
     return Outcome(f"table: {len(errors)} errors")

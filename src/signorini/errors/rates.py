@@ -159,6 +159,37 @@ def _other_element(element, ratio):
     )
 
 
+def rate_between(coarse, fine, norm):
+    """The slope of an error between two levels.
+
+    Parameters
+    ----------
+    coarse, fine : mapping
+        Rows of errors.csv.
+    norm : str
+
+    Returns
+    -------
+    float or None
+        Dimensionless; None where an error is missing, zero or infinite.
+
+    Examples
+    --------
+    >>> rate_between({"h": 0.5, "l2": 1.0}, {"h": 0.25, "l2": 0.25}, "l2")
+    2.0
+    """
+    errors = [_number(row.get(norm)) for row in (coarse, fine)]
+    if not all(0.0 < error < math.inf for error in errors):
+        return None
+    ratio = float(coarse["h"]) / float(fine["h"])
+    return (math.log(errors[0]) - math.log(errors[1])) / math.log(ratio)
+
+
+def _number(value):
+    """A cell as a number, not a number where it is empty."""
+    return math.nan if value in (None, "") else float(value)
+
+
 def slopes(h, errors):
     """Slopes of log(error) against log(h).
 

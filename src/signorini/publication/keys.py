@@ -7,8 +7,8 @@ contact unknowns there are.
 
 import difflib
 
-from signorini.errors.norms import RATED
 from signorini.errors.rates import KINDS
+from signorini.scene.table import computed_norms
 from signorini.wording import cut
 
 SLOPE, RATE, PUBLISHED, DEVIATION, EFFECT = "slope", "rate", "published", "deviation", "effect"
@@ -84,13 +84,6 @@ def declared_keys(document, published=()):
     if has_effects(document):
         found |= dict.fromkeys((key_of(EFFECT, choice) for choice in CHOICES), "effects")
     return found
-
-
-def computed_norms(document):
-    """The norms in the tables: those asked for, and the two that the full norm is made of."""
-    asked = document["norms"]
-    parts = {"l2", "h1_semi"} if "h1" in asked else set()
-    return [norm for norm in RATED if norm in asked or norm in parts]
 
 
 def is_sampled(document):

@@ -1,9 +1,9 @@
 """The numbers of a scene's results by key, as the text that stands in their tables."""
 
-import math
 from itertools import pairwise
 from pathlib import Path
 
+from signorini.errors.rates import rate_between
 from signorini.publication.compare import check_summary
 from signorini.publication.keys import (
     CHOICES,
@@ -17,11 +17,11 @@ from signorini.publication.keys import (
     PUBLISHED,
     RATE,
     SLOPE,
-    computed_norms,
     key_of,
 )
 from signorini.publication.published import read_published
 from signorini.report.result_files import read_errors, read_rates
+from signorini.scene.table import computed_norms
 from signorini.storage import read_csv, read_npz
 
 
@@ -87,26 +87,6 @@ def error_numbers(rows, norms):
         for n, step in (steps | ({FINEST: steps[own[-1]["n"]]} if steps else {})).items():
             found |= {key_of(RATE, norm, element, n): rate_between(*step, norm) for norm in norms}
     return found
-
-
-def rate_between(coarse, fine, norm):
-    """The slope of an error between two levels.
-
-    Parameters
-    ----------
-    coarse, fine : mapping
-        Rows of errors.csv.
-    norm : str
-
-    Returns
-    -------
-    float or None
-        Dimensionless; None where an error is missing, zero or infinite.
-    """
-    errors = [float(row[norm] or "nan") for row in (coarse, fine)]
-    if not all(0.0 < error < math.inf for error in errors):
-        return None
-    return math.log(errors[0] / errors[1]) / math.log(float(coarse["h"]) / float(fine["h"]))
 
 
 def _of_rates(scene, path):

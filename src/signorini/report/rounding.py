@@ -44,15 +44,18 @@ def percent(share):
     return f"{Decimal(f'{100 * share:.1e}'):f}"
 
 
-def column(values, decimals):
+def column(values, decimals, digits=5, notation="auto"):
     """Return the numbers of a column of a table, all in one notation.
 
     Parameters
     ----------
     values : sequence of float, str or None
     decimals : int
-        Of a fixed number. Where one of the values is below 1e-5 or at least 1e4, all have an
-        exponent instead.
+        Of a fixed number.
+    digits : int, optional
+        Significant digits of one with an exponent.
+    notation : {"auto", "fixed", "scientific"}, optional
+        ``auto``: where one of the values is below 1e-5 or at least 1e4, all have an exponent.
 
     Returns
     -------
@@ -64,10 +67,16 @@ def column(values, decimals):
     >>> column([0.25, "0.125", None], 3), column([0.25, 1e-9], 3)
     (['0.250', '0.125', '--'], ['2.5000e-01', '1.0000e-09'])
     """
-    sizes = [abs(float(value)) for value in values if not is_missing(value)]
-    if any(size >= SCIENTIFIC_FROM or 0 < size < SCIENTIFIC_BELOW for size in sizes):
-        return [MISSING if is_missing(value) else f"{float(value):.4e}" for value in values]
+    if notation == "scientific" or (notation == "auto" and _is_extreme(values)):
+        form = f".{digits - 1}e"
+        return [MISSING if is_missing(value) else format(float(value), form) for value in values]
     return [fixed(value, decimals) for value in values]
+
+
+def _is_extreme(values):
+    """Whether one of the values has too few digits, or too many, as a fixed number."""
+    sizes = [abs(float(value)) for value in values if not is_missing(value)]
+    return any(size >= SCIENTIFIC_FROM or 0 < size < SCIENTIFIC_BELOW for size in sizes)
 
 
 def is_missing(value):

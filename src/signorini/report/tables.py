@@ -1,11 +1,15 @@
 """Table 5.1, in LaTeX and in Markdown, from the rows of the pipeline's CSV files."""
 
-from signorini.errors.norms import NORMS, PAPER_NORMS, REFERENCE
-from signorini.errors.rates import NO_LOGARITHM, ROUND_OFF, SOUND, trouble_of
-from signorini.fem.element_facts import ABBREVIATIONS, ELEMENT_NAMES
+from dataclasses import replace
+from itertools import pairwise
+
+from signorini.errors.norms import NORMS, REFERENCE
+from signorini.errors.rates import NO_LOGARITHM, ROUND_OFF, SOUND, rate_between, trouble_of
 from signorini.report.rounding import MISSING, column, fixed
 from signorini.report.slopes import slopes_by_series
-from signorini.report.table_writer import Table, Title, latex, markdown
+from signorini.report.table_form import LEADING, UNKNOWNS, TableForm
+from signorini.report.table_latex import latex
+from signorini.report.table_writer import Column, Group, Table, Title, markdown
 
 INACCURATE = "†"
 MARKS = {ROUND_OFF: "*", REFERENCE: "‡", NO_LOGARITHM: "§", SOUND: ""}  # of a slope
@@ -27,29 +31,22 @@ JUMPS = (
 _PROOF = ("residual", "accuracy", "multiplier_accuracy")
 
 
-def error_table(
-    errors, rates, norms=PAPER_NORMS, elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
-):
+def error_table(errors, rates, /, form=None, **fields):
     r"""Return Table 5.1 in LaTeX: a row for every N, a column for every norm and element.
 
     Parameters
     ----------
     errors : sequence of mapping
         Rows with ``element``, ``n`` and one column per norm (dimensionless), as text or numbers;
-        and perhaps ``status``: where it is "inaccurate" the errors are marked, and a note tells the
-        largest of ``residual``, ``accuracy`` and ``multiplier_accuracy``.
+        and perhaps ``h`` and ``dofs``, where they are shown; and ``status``: where it is
+        "inaccurate" the errors are marked, and a note tells the largest of ``residual``,
+        ``accuracy`` and ``multiplier_accuracy``.
     rates : sequence of mapping
         Rows with ``element``, ``norm``, ``kind``, ``slope``, and perhaps ``floor``: where it is not
         0 the slope is marked and a note explains.
-    norms, elements : sequence of str, optional
-        The columns, and their order.
-    kind : str, optional
-        Which slopes fill the last row: "mean" or "fit".
-    decimals : int, optional
-        Decimals of an error. A column with a value below 1e-5, or from 1e4 on, is in scientific
-        notation.
-    note : str, optional
-        One more note under the table, for instance `rates.reference_note`.
+    form : TableForm, optional
+    **fields
+        Of a `TableForm`, where there is none.
 
     Returns
     -------
@@ -79,17 +76,15 @@ def error_table(
     \end{tabular}
     <BLANKLINE>
     """
-    return latex(_described(errors, rates, norms, elements, kind, decimals, note))
+    return latex(_described(errors, rates, form or TableForm(**fields)))
 
 
-def markdown_table(
-    errors, rates, norms=PAPER_NORMS, elements=ELEMENT_NAMES, kind="mean", decimals=8, note=None
-):
+def markdown_table(errors, rates, /, form=None, **fields):
     """Return Table 5.1 in Markdown.
 
     Parameters
     ----------
-    errors, rates, norms, elements, kind, decimals, note
+    errors, rates, form, **fields
         As for `error_table`.
 
     Returns
@@ -110,51 +105,86 @@ def markdown_table(
     | 2 | 0.10075495 |
     | slope | -- |
     """
-    return markdown(_described(errors, rates, norms, elements, kind, decimals, note))
+    return markdown(_described(errors, rates, form or TableForm(**fields)))
 
 
-def _described(errors, rates, norms, elements, kind, decimals, note):
-    _check_known("norm", norms, NORMS)
-    _check_known("element", elements, ELEMENT_NAMES)
-    *levels, slopes = _rows(errors, rates, norms, elements, kind, decimals)
+def _described(errors, rates, form):
+    rows = _by_level(errors, form.levels)
+    slopes = _marked_slopes(rates, form.kind) if form.slopes else None
+    leading = [_leading(name, rows, form) for name in form.columns if name in LEADING]
+    first = replace(leading[0], foot="slope")
+    groups = [_unknowns(rows, form)] if UNKNOWNS in form.columns else []
+    groups += [_group(norm, rows, slopes, form) for norm in form.norms]
     return Table(
-        first=Title("$N$", "N"),
-        groups=tuple(Title(NORMS[norm].heading, NORMS[norm].text) for norm in norms),
-        names=tuple(ABBREVIATIONS[element] for element in elements),
-        body=tuple(levels),
-        foot=(slopes,),
-        notes=tuple(_notes(errors, rates, norms, elements, kind, note)),
+        leading=(first, *leading[1:]),
+        groups=tuple(groups),
+        notes=tuple(_notes(errors, rates, form)),
+        has_foot=form.slopes,
+        side_by_side=form.side_by_side,
     )
 
 
-def _check_known(what, names, table):
-    for name in names:
-        if name not in table:
-            raise ValueError(f"unknown {what} {name!r}; known: {', '.join(table)}")
-
-
-def _rows(errors, rates, norms, elements, kind, decimals):
-    """Return the cells as plain text: a row for every level, and the row of slopes."""
-    by_level = {(row["element"], int(row["n"])): row for row in errors}
-    if len(by_level) < len(errors):
+def _by_level(errors, levels):
+    """n -> element -> row of errors, by increasing level."""
+    pairs = {(int(row["n"]), row["element"]): row for row in errors}
+    if len(pairs) < len(errors):
         raise ValueError("errors: an element and n occur twice")
-    levels = sorted({n for _, n in by_level})
-    slopes = _marked_slopes(rates, kind)
-    columns = [[*map(str, levels), "slope"]]
-    for norm in norms:
-        for element in elements:
-            rows = [by_level.get((element, n), {}) for n in levels]
-            slope = slopes.get((norm, element), MISSING)
-            columns.append([*_marked_errors(rows, norm, decimals), slope])
-    return [list(row) for row in zip(*columns, strict=True)]
+    found = {}
+    for (n, element), row in sorted(pairs.items()):
+        if levels is None or n in levels:
+            found.setdefault(n, {})[element] = row
+    return found
 
 
-def _marked_errors(rows, norm, decimals):
+def _leading(name, rows, form):
+    """One of the columns that all elements share."""
+    if name == "n":
+        return Column(Title("$N$", "N"), tuple(map(str, rows)))
+    sizes = (next(iter(by_element.values()))["h"] for by_element in rows.values())
+    return Column(Title("$h$", "h"), tuple(f"{float(size):.6g}" for size in sizes))
+
+
+def _unknowns(rows, form):
+    """The columns with the number of unknowns."""
+    columns = []
+    for element in form.elements:
+        cells = (str(row.get(element, {}).get("dofs", MISSING)) for row in rows.values())
+        columns.append(Column(_plain(form.label(element)), tuple(cells)))
+    return Group(Title("unknowns", "unknowns of"), tuple(columns))
+
+
+def _group(norm, rows, slopes, form):
+    """The columns of a norm: for each element the errors, and perhaps their rates."""
+    columns = []
+    for element in form.elements:
+        own = [row.get(element, {}) for row in rows.values()]
+        slope = slopes.get((norm, element), MISSING) if form.slopes else ""
+        cells = _marked_errors(own, norm, form)
+        columns.append(Column(_plain(form.label(element)), tuple(cells), slope))
+        if form.rates:
+            columns.append(Column(_plain("rate"), tuple(_rates(own, norm))))
+    return Group(Title(NORMS[norm].heading, NORMS[norm].text), tuple(columns))
+
+
+def _plain(text):
+    return Title(text, text)
+
+
+def _marked_errors(rows, norm, form):
     """One column of errors as text; a dash has nothing to mark."""
-    cells = column([row.get(norm) for row in rows], decimals)
+    values = [row.get(norm) for row in rows]
+    cells = column(values, form.decimals, form.digits, form.notation)
     marks = [INACCURATE if _is_inaccurate(row) else "" for row in rows]
     pairs = zip(cells, marks, strict=True)
     return [cell if cell == MISSING else cell + mark for cell, mark in pairs]
+
+
+def _rates(rows, norm):
+    """The rate from the level before, as text; a dash where it means nothing."""
+    yield MISSING
+    for coarse, fine in pairwise(rows):
+        round_off = any(norm in row.get("floor", "").split() for row in (coarse, fine))
+        yield MISSING if round_off else fixed(rate_between(coarse, fine, norm), 2)
 
 
 def _marked_slopes(rates, kind):
@@ -166,23 +196,27 @@ def _marked_slopes(rates, kind):
     return {key: fixed(slope, 2) + MARKS[troubles[key]] for key, slope in slopes.items()}
 
 
-def _notes(errors, rates, norms, elements, kind, note):
+def _notes(errors, rates, form):
     """The lines under the table: what its marks mean, and what else is to be known."""
-    inaccurate = [row for row in errors if row["element"] in elements and _is_inaccurate(row)]
+    shown = [row for row in errors if form.levels is None or int(row["n"]) in form.levels]
+    inaccurate = [row for row in shown if row["element"] in form.elements and _is_inaccurate(row)]
     if inaccurate:
         yield _inaccuracy_note(inaccurate)
     troubles = {
         trouble_of(row)
         for row in rates
-        if row["kind"] == kind and row["norm"] in norms and row["element"] in elements
+        if form.slopes
+        and row["kind"] == form.kind
+        and row["norm"] in form.norms
+        and row["element"] in form.elements
     }
     for trouble, text in NOTES.items():
         if trouble in troubles:
             yield f"{MARKS[trouble]} {text}"
-    if "critical_points" in norms:
+    if "critical_points" in form.norms:
         yield JUMPS
-    if note:
-        yield f"Note: {note}."
+    if form.note:
+        yield f"Note: {form.note}."
 
 
 def _is_inaccurate(row):

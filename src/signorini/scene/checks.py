@@ -11,6 +11,7 @@ from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
 from signorini.mesh.cell_counts import count_cells
 from signorini.scene.quantities import check_quantities
 from signorini.scene.shape_checks import check_shapes, refuse_shapes
+from signorini.scene.table import check_table
 from signorini.wording import nearest, shown
 
 _NESTED = ("falling", "rising")
@@ -43,6 +44,7 @@ def check_document(document):
     _check_outputs(document)
     check_quantities(document)
     _check_norms(document)
+    check_table(document)
 
 
 def check_critical_points(document, exact):

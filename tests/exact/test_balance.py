@@ -107,7 +107,7 @@ def test_a_line_that_is_loaded_is_found(case, coarsest):
         statement(u, data={"coefficient": coefficient}, coarsest=coarsest).check()
 
 
-def test_a_kink_is_no_solution_of_a_typed_load_either():
+def test_a_kink_is_no_solution_of_a_given_load_either():
     with pytest.raises(SceneError, match=r"du/dnu of the exact solution jumps from -1 to 1"):
         statement("1 + abs(x - 0.37)", {"bottom": "contact"}, {"f": 0, "obstacle": 0}).check()
 

@@ -58,7 +58,7 @@ def test_the_threshold_is_the_flux_less_the_multiplier(coefficient):
     np.testing.assert_allclose(s, -k * x**2 - np.maximum(0.1 - x, 0) ** 2, rtol=0, atol=1e-15)
 
 
-def test_a_typed_threshold_is_compared_with_the_derived_one():
+def test_a_given_threshold_is_compared_with_the_derived_one():
     mesh, right = grid(), "-x**2 - pos(0.1 - x)**2"
     check_data(stated().exact, stated(contact_flux=right).data, Samples.of(mesh))
     with pytest.raises(SceneError, match=r"data\.contact_flux: .* where the exact solution gives"):
@@ -85,14 +85,14 @@ def test_each_of_signorinis_conditions_is_checked(case):
         check_data(exact, asked, Samples.of(grid()))
 
 
-def test_without_a_multiplier_a_typed_threshold_is_what_the_flux_is_held_against():
+def test_without_a_multiplier_a_given_threshold_is_what_the_flux_is_compared_with():
     """u = y x^2 has the flux -x^2, which no threshold of zero allows."""
     exact = read_exact({"u": "y*x**2"})
     plain = derived_data(exact)
     with pytest.raises(SceneError, match=r"du/dnu >= 0 .* du/dnu = -0\.249\d*; change"):
         check_data(exact, plain, Samples.of(grid()))
-    typed = replace(plain, contact_flux=Formula("-x**2 - 1", "data.contact_flux"))
-    check_data(exact, typed, Samples.of(grid()))
+    given = replace(plain, contact_flux=Formula("-x**2 - 1", "data.contact_flux"))
+    check_data(exact, given, Samples.of(grid()))
 
 
 @pytest.mark.parametrize("element", ELEMENTS)

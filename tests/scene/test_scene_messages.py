@@ -1,4 +1,4 @@
-"""Messages: short whatever is typed, and clear where two readings of a scene are near."""
+"""Messages: short whatever is given, and clear where two readings of a scene are near."""
 
 import copy
 import json
@@ -47,7 +47,7 @@ LONG = {
 
 @pytest.mark.parametrize("value", LONG)
 @pytest.mark.parametrize("base", BASES)
-def test_a_message_is_short_whatever_is_typed(load, base, value):
+def test_a_message_is_short_whatever_is_given(load, base, value):
     """At every key; a list of levels was shown in 135 kB."""
     plain = load(BASES[base], load_yaml)
     for path in keys_of(scene_schema()):

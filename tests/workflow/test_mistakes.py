@@ -186,8 +186,8 @@ def test_a_mesh_file_out_of_the_tree(fresh, path):
     assert not (fresh / "results").exists()
 
 
-# What is typed after --config -> what the line says.
-TYPED = {
+# What follows --config -> what the line says.
+COMMAND_LINE = {
     "scenes=[smal]": "--config: scenes: there is no config/scenes/smal.yaml; did you mean small?",
     "scenes=small": '--config: scenes: "small" is not valid; expected a list, [a, b, ...]',
     "scenes=[]": "--config: scenes: [] is not valid; needs at least 1 entry",
@@ -202,20 +202,22 @@ TYPED = {
 
 
 @pytest.fixture(scope="module")
-def typed(tmp_path_factory):
-    """What is typed after --config -> the run."""
-    project = Project.fresh(tmp_path_factory.mktemp("typed") / "project")
-    return side_by_side(lambda text: project.run("--dry-run", "--nolock", "--config", text), TYPED)
+def runs(tmp_path_factory):
+    """What follows --config -> the run."""
+    project = Project.fresh(tmp_path_factory.mktemp("command_line") / "project")
+    return side_by_side(
+        lambda text: project.run("--dry-run", "--nolock", "--config", text), COMMAND_LINE
+    )
 
 
-@pytest.mark.parametrize("text", TYPED)
-def test_mistake_on_the_command_line(typed, text):
+@pytest.mark.parametrize("text", COMMAND_LINE)
+def test_mistake_on_the_command_line(runs, text):
     """The file is not to blame."""
-    assert typed[text].code != 0
-    assert len(typed[text].errors) == 1, typed[text].text
-    assert typed[text].errors[0].startswith(f"error: {TYPED[text]}")
-    assert "config.yaml" not in typed[text].errors[0]
-    assert "Traceback" not in typed[text].text
+    assert runs[text].code != 0
+    assert len(runs[text].errors) == 1, runs[text].text
+    assert runs[text].errors[0].startswith(f"error: {COMMAND_LINE[text]}")
+    assert "config.yaml" not in runs[text].errors[0]
+    assert "Traceback" not in runs[text].text
 
 
 def test_mistake_in_another_configuration_file(fresh):
@@ -317,7 +319,7 @@ MESHED = {
         "4*(x - 0.3)*(x - 0.4) + y**2",
         "truth: the exact solution fails u >= obstacle",
     ),
-    "typed load": (EXACT, "levels:", "data: {f: 1}\nlevels:", "data.f: 1 at (x, y) = "),
+    "given load": (EXACT, "levels:", "data: {f: 1}\nlevels:", "data.f: 1 at (x, y) = "),
     "not finite": (EXACT, "1 + x*y**2", "sqrt(x - 0.1)", "truth.u: value is nan at (x, y) = "),
     "misspelt group": (
         GASKET,

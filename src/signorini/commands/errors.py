@@ -26,9 +26,11 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("solutions", metavar="SOLUTION", nargs="*", help="solutions, .npz")
     parser.add_argument(
-        "--mesh", metavar="FILE", help="what `signorini mesh` wrote; else made anew"
+        "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
-    parser.add_argument("--reference", metavar="FILE", help="the reference, .npz; else solved here")
+    parser.add_argument(
+        "--reference", metavar="FILE", help="the reference, .npz; solved here if not given"
+    )
     parser.add_argument("--norms", nargs="+", metavar="NORM", help="default: those of the scene")
     add_output(parser, "the table, errors.csv", required=False)
 

@@ -21,10 +21,16 @@ from signorini.storage import read_csv, read_npz
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    parser.add_argument("--field", required=True, metavar="FILE", help="of `signorini field`")
-    parser.add_argument("--line", metavar="FILE", help="of `signorini contact-line`")
-    parser.add_argument("--errors", metavar="FILE", help="of `signorini errors`; needs --rates")
-    parser.add_argument("--rates", metavar="FILE", help="of `signorini rates`; needs --errors")
+    parser.add_argument(
+        "--field", required=True, metavar="FILE", help="the output of `signorini field`"
+    )
+    parser.add_argument("--line", metavar="FILE", help="the output of `signorini contact-line`")
+    parser.add_argument(
+        "--errors", metavar="FILE", help="the output of `signorini errors`; needs --rates"
+    )
+    parser.add_argument(
+        "--rates", metavar="FILE", help="the output of `signorini rates`; needs --errors"
+    )
     parser.add_argument("-o", "--output", required=True, metavar="FOLDER", help="where to draw")
 
 

@@ -72,12 +72,14 @@ def domain_of(scene, mesh):
 
 def add_mesh(parser):
     """Add the argument ``mesh``."""
-    parser.add_argument("mesh", metavar="MESH", help="what `signorini mesh` wrote, .npz")
+    parser.add_argument("mesh", metavar="MESH", help="the output of `signorini mesh`, .npz")
 
 
 def add_solution(parser):
     """Add the argument ``solution``."""
-    parser.add_argument("solution", metavar="SOLUTION", help="what `signorini solve` wrote, .npz")
+    parser.add_argument(
+        "solution", metavar="SOLUTION", help="the output of `signorini solve`, .npz"
+    )
 
 
 def add_drawings(parser, *flags):

@@ -27,7 +27,7 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("solutions", metavar="SOLUTION", nargs="*", help="solutions, .npz")
     parser.add_argument(
-        "--mesh", metavar="FILE", help="what `signorini mesh` wrote; else made anew"
+        "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
     add_output(parser, "the table, outputs.csv", required=False)
 

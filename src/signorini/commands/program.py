@@ -27,7 +27,7 @@ def main(words=None):
     Returns
     -------
     int
-        0, or 1 after an error that was told in one line, 2 after a wrong command line.
+        0, or 1 after an error, printed in one line, 2 after a wrong command line.
     """
     words = list(sys.argv[1:] if words is None else words)
     if not words or words[0] in ("-h", "--help", "help"):
@@ -97,14 +97,14 @@ def _parser(command, module):
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     module.add_arguments(parser)
-    parser.add_argument("--json", action="store_true", help="tell the outcome as JSON")
+    parser.add_argument("--json", action="store_true", help="print the outcome as JSON")
     parser.add_argument("--debug", action="store_true", help="show where an error comes from")
-    parser.add_argument("--verbose", action="store_true", help="tell each step of a long solve")
+    parser.add_argument("--verbose", action="store_true", help="print each step of a long solve")
     return parser
 
 
 def _run(module, arguments):
-    """Run a command: 0, or 1 where it told an error."""
+    """Run a command: 0, or 1 after an error."""
     from signorini.commands.progress import told_steps
 
     start = time.perf_counter()

@@ -35,10 +35,10 @@ def add_arguments(parser):
     parser.add_argument(
         "--method",
         choices=("auto", *METHODS),
-        help="the route; default: the scene's solver.method",
+        help="the solver; default: the scene's solver.method",
     )
     parser.add_argument(
-        "--mesh", metavar="FILE", help="what `signorini mesh` wrote; else made anew"
+        "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
     add_output(parser, "u and its proof, .npz", required=False)
 

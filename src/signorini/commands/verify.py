@@ -1,4 +1,4 @@
-"""Fail where a published number was not met, and name each such number.
+"""Fail if a published number is not met, and name each such number.
 
 example:
   signorini verify check.csv

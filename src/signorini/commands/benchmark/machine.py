@@ -1,4 +1,4 @@
-"""Write down the machine, the versions and the load before anything is measured.
+"""Describe the machine, the versions and the load, before anything is measured.
 
 example:
   signorini benchmark machine -o machine.json

@@ -14,7 +14,7 @@ def add_settings(parser):
         default="config/benchmark.yaml",
         help="what is measured; default: %(default)s",
     )
-    parser.add_argument("--quick", action="store_true", help="its part `quick`")
+    parser.add_argument("--quick", action="store_true", help="use the part `quick` of the settings")
 
 
 def add_scenes(parser):

@@ -24,8 +24,13 @@ def add_arguments(parser):
     parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
     parser.add_argument("--n", type=int, required=True, help="the level, 1/h")
     parser.add_argument("--method", choices=METHODS, required=True, help="the route")
-    parser.add_argument("--solution", required=True, metavar="FILE", help="by the scene's route")
-    parser.add_argument("--before", metavar="FILE", help="the point of the level before, .csv")
+    parser.add_argument(
+        "--solution",
+        required=True,
+        metavar="FILE",
+        help="the stored solution, by the scene's own method",
+    )
+    parser.add_argument("--before", metavar="FILE", help="the row of the level before, .csv")
     add_settings(parser)
     add_output(parser, "the row, .csv")
 

@@ -19,7 +19,9 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
     parser.add_argument("--rival", choices=RIVALS, required=True, metavar="NAME")
-    parser.add_argument("--mesh", metavar="FILE", help="of `signorini mesh`; else made anew")
+    parser.add_argument(
+        "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
+    )
     add_settings(parser)
     add_output(parser, "the rows, .csv")
 

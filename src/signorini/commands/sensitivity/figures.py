@@ -17,7 +17,10 @@ _COLOURS = 128  # of a PNG
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument(
-        "folder", metavar="FOLDER", type=Path, help="of `signorini sensitivity combinations`"
+        "folder",
+        metavar="FOLDER",
+        type=Path,
+        help="the output of `signorini sensitivity combinations`",
     )
 
 

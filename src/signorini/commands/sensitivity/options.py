@@ -18,7 +18,7 @@ def add_comparison(parser):
 
 def add_quick(parser):
     """Add the option ``--quick``."""
-    parser.add_argument("--quick", action="store_true", help="coarse levels alone")
+    parser.add_argument("--quick", action="store_true", help="coarse levels only")
 
 
 def levels_of(scene, quick):

@@ -19,7 +19,7 @@ def add_arguments(parser):
     parser.add_argument("--variant", required=True, metavar="NAME")
     parser.add_argument("--samples", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--quick", action="store_true", help="coarse levels alone")
+    parser.add_argument("--quick", action="store_true", help="coarse levels only")
     add_output(parser, "a row for each number, .csv")
 
 

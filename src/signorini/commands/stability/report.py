@@ -15,8 +15,10 @@ from signorini.studies.stability.report import page, summarise
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="has the pieces of the suite")
-    parser.add_argument("--time-limit", type=float, default=1.0, help="that rivals had, in seconds")
-    parser.add_argument("--seeds", type=int, default=0, help="that were asked for; 0 where fixed")
+    parser.add_argument(
+        "--time-limit", type=float, default=1.0, help="the time limit of rivals, in seconds"
+    )
+    parser.add_argument("--seeds", type=int, default=0, help="the first seed; 0 for the fixed ones")
 
 
 def run(arguments):

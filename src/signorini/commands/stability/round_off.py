@@ -18,7 +18,7 @@ def add_arguments(parser):
         type=float,
         nargs="+",
         required=True,
-        help="levels n; of stretching, exponents of ten",
+        help="levels n; for stretching, exponents of ten, negated",
     )
     add_output(parser, "a row for each level, .csv")
 

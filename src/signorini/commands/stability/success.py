@@ -14,12 +14,23 @@ from signorini.studies.stability.success import measure
 def add_arguments(parser):
     """Declare the command's arguments."""
     families = ", ".join(FAMILIES)
-    parser.add_argument("family", choices=FAMILIES, metavar="FAMILY", help=f"of bodies: {families}")
     parser.add_argument(
-        "--seeds", type=int, nargs=2, required=True, metavar=("FIRST", "COUNT"), help="of problems"
+        "family", choices=FAMILIES, metavar="FAMILY", help=f"the family of bodies: {families}"
     )
-    parser.add_argument("--few", type=int, default=3, help="of the seeds that rivals solve, too")
-    parser.add_argument("--time-limit", type=float, default=1.0, help="of a rival, in seconds")
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        nargs=2,
+        required=True,
+        metavar=("FIRST", "COUNT"),
+        help="the seeds of the problems",
+    )
+    parser.add_argument(
+        "--few", type=int, default=3, help="how many of the seeds slow rivals solve"
+    )
+    parser.add_argument(
+        "--time-limit", type=float, default=1.0, help="the time limit of a rival, in seconds"
+    )
     add_output(parser, "a row for each problem and solver, .csv")
 
 

@@ -5,7 +5,7 @@ CORES ?= 2
 
 run := .venv/bin/python -m
 
-.PHONY: help paper test lint readme studies requirements clean distclean
+.PHONY: help paper test lint readme examples studies requirements clean distclean
 .NOTPARALLEL:
 
 help:
@@ -13,6 +13,7 @@ help:
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format, style and types of Python, and Snakemake files'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
+	@echo 'make examples      run the examples, draw their pictures and write docs/examples.md'
 	@echo 'make studies       run the four studies, up to an hour, and keep what they measured in docs/studies'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
@@ -35,6 +36,9 @@ lint: .venv/ready
 readme: paper
 	$(run) snakemake --cores $(CORES) all_scenes
 	.venv/bin/python docs/update_readme.py
+
+examples: .venv/ready
+	.venv/bin/python docs/draw_examples.py
 
 studies: .venv/ready
 	$(run) snakemake --cores $(CORES) sensitivity theory benchmark stability

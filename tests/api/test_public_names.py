@@ -3,6 +3,7 @@
 import ast
 import inspect
 import re
+import runpy
 import tomllib
 from pathlib import Path
 
@@ -61,3 +62,10 @@ def test_the_package_has_its_types():
     patterns = package["tool"]["setuptools"]["package-data"]["signorini"]
     assert {"py.typed", "__init__.pyi"} < set(patterns)
     assert (ROOT / "src/signorini/py.typed").is_file()
+
+
+def test_a_program_with_types_runs():
+    program = runpy.run_path(str(Path(__file__).with_name("typed_program.py")))
+    resultant, status, _ = program["told"](program["solved"](4))
+    assert resultant >= 0.0
+    assert status == "solved"

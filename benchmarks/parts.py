@@ -22,7 +22,7 @@ sys.path.insert(0, str(ROOT / "src"))
 
 from signorini import solve  # noqa: E402
 from signorini.fem.problem import discretize_on  # noqa: E402
-from signorini.solvers import descent, multigrid, search, select  # noqa: E402
+from signorini.solvers import conjugate_gradients, level_solver, multigrid, select  # noqa: E402
 from signorini.solvers.cycle import Cycle  # noqa: E402
 from signorini.solvers.level import Level  # noqa: E402
 from signorini.work import counting  # noqa: E402
@@ -45,15 +45,15 @@ WRAPPED = [
     (select, "check_symmetric", "checks before"),
     (multigrid, "build_hierarchy", LEVELS),
     (multigrid.Obstacle, "restricted", LEVELS),
-    (search.Search, "run", finest_or("finest level: vectors")),
-    (search.Search, "_descent", "finest level: residuals"),
-    (search, "preconditioner", "finest level: set-up of cycles"),
+    (level_solver.LevelSolver, "solve", finest_or("finest level: vectors")),
+    (level_solver.LevelSolver, "_next_iteration", "finest level: residuals"),
+    (level_solver, "preconditioner", "finest level: set-up of cycles"),
     (Cycle, "__call__", "finest level: cycles"),
     (Level, "product", "finest level: products"),
-    (descent.Descent, "_wrong", "finest level: signs"),
-    (search.Search, "errors", "errors of u and of the forces"),
-    (search.Search, "found", "undecided signs"),
-    (multigrid, "to_close", "undecided signs"),
+    (conjugate_gradients.ConjugateGradients, "_violated_signs", "finest level: signs"),
+    (level_solver.LevelSolver, "errors", "errors of u and of the forces"),
+    (level_solver.LevelSolver, "result", "undecided signs"),
+    (multigrid, "dofs_to_bind", "undecided signs"),
     (select, "kkt_residual", "KKT residual"),
 ]
 

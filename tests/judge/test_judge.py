@@ -197,7 +197,8 @@ def test_errors_are_relative_to_variation_and_force():
     assert found.multiplier_distance(lifted, found.active) == pytest.approx(
         1e-3 / largest, rel=1e-9
     )
-    assert found.multiplier_distance(lifted, none) == pytest.approx(1e-3 / found.acting, rel=1e-9)
+    expected = pytest.approx(1e-3 / found.force_scale, rel=1e-9)
+    assert found.multiplier_distance(lifted, none) == expected
 
 
 def test_what_double_precision_cannot_is_told_from_what_it_can():

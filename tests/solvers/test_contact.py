@@ -182,7 +182,7 @@ def test_cycles_of_the_plain_method_are_ended(family, n, condition, count):
 
 
 def test_least_index_rule_alone_is_finite(monkeypatch):
-    monkeypatch.setattr(contact, "PATIENCE", (0, 0, np.inf))
+    monkeypatch.setattr(contact, "BLOCK_LIMITS", (0, 0, np.inf))
     rng = np.random.default_rng(6)
     singles = 0
     for family in FAMILIES:

@@ -15,7 +15,7 @@ from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
-from signorini.solvers.condensed import Condensed, dissection_order
+from signorini.solvers.schur_complement import SchurComplement, dissection_order
 
 MESHES = {
     "grid": lambda labels: grid(5, 4, labels),
@@ -198,22 +198,22 @@ def test_one_factorisation_serves_everything(mesh_of, element, labels, monkeypat
 
 def test_the_condensed_matrix_is_the_schur_complement(mesh_of, element):
     problem = discretize_on(mesh_of(LABELS["paper"]), element, statement(**DATA))
-    condensed = Condensed(problem)
+    schur = SchurComplement(problem)
     c, i = problem.contact, np.setdiff1d(problem.free, problem.contact)
     A = problem.A.toarray()
     inner = np.linalg.solve(A[np.ix_(i, i)], np.column_stack([A[np.ix_(i, c)], problem.b[i]]))
     scale = np.abs(A).max()
     np.testing.assert_allclose(
-        condensed.S, A[np.ix_(c, c)] - A[np.ix_(c, i)] @ inner[:, :-1], rtol=0, atol=1e-12 * scale
+        schur.S, A[np.ix_(c, c)] - A[np.ix_(c, i)] @ inner[:, :-1], rtol=0, atol=1e-12 * scale
     )
     np.testing.assert_allclose(
-        condensed.condense(problem.b),
+        schur.condense(problem.b),
         problem.b[c] - A[np.ix_(c, i)] @ inner[:, -1],
         rtol=0,
         atol=1e-12 * scale,
     )
     w = np.random.default_rng(0).random(c.size)
-    u = condensed.back_substitute(problem.b, w)
+    u = schur.back_substitute(problem.b, w)
     np.testing.assert_array_equal(u[c], w)
     assert not u[problem.fixed].any()
     np.testing.assert_allclose((problem.A @ u - problem.b)[i], 0, rtol=0, atol=1e-12 * scale)

@@ -83,6 +83,16 @@ def test_weights_are_not_divided_by_nothing(family, load, seed, capfd):
     assert_allclose(solution.u, expected, rtol=0, atol=1e-12 * np.ptp(expected))
 
 
+def test_aggregation_neither_depends_on_random_numbers_nor_draws_any():
+    problem = instance("layers", "tiny", "P1", 4).problem
+    state = np.random.get_state()[1].copy()  # noqa: NPY002 (the generator that PyAMG draws from)
+    first = solve(problem, "multigrid").u
+    assert_array_equal(np.random.get_state()[1], state)  # noqa: NPY002
+    for seed in range(6):
+        np.random.seed(seed)  # noqa: NPY002
+        assert_array_equal(solve(problem, "multigrid").u, first)
+
+
 def test_coarse_matrices_are_galerkin_products_of_the_finer(element):
     k = {"coefficient": "where(x > 0.4, 7, 1 + y)"}
     levels = build_hierarchy(problem_on(square(32), element, **k))

@@ -11,7 +11,7 @@ from signorini.chunks import chunk_slices
 from signorini.work import count
 
 EPS = np.finfo(float).eps
-BELOW = 1e-8 * EPS  # of what u varies: a stiff part feels what is far below the last bit
+FAR_BELOW_EPS = 1e-8 * EPS  # of what u varies: a stiff part feels what is far below the last bit
 _ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for zero
 # Roundings of a flux: the coupling, the difference, their product, and the sum of the row.
 _FLUX = 4.0

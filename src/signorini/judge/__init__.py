@@ -7,12 +7,12 @@ elimination keeps couplings too, so that neither stiff parts nor graded cells co
 - `couplings`: the Dirichlet form as a network of couplings.
 - `elimination`: elimination of nodes of such a network.
 - `contact_set`: what loads do with a contact set, and the exchange of wrong signs.
-- `search`: the refinement of u, to the last digit.
+- `refinement`: the refinement of u, to the last digit.
 - `dense`: small problems in double precision, by other means than the solvers'.
 - `judgement`: what was found, and how solutions compare with it.
 """
 
 from signorini.judge.judgement import DOUBLE, EPS, Judgement
-from signorini.judge.search import judge
+from signorini.judge.refinement import judge
 
 __all__ = ["DOUBLE", "EPS", "Judgement", "judge"]

@@ -30,7 +30,7 @@ class Response(NamedTuple):
     force_error: np.ndarray
 
 
-class Body:
+class CondensedProblem:
     """A problem's couplings with all but the contact unknowns eliminated, once.
 
     Parameters
@@ -46,11 +46,11 @@ class Body:
         inside = np.ones(problem.b.size, dtype=bool)
         inside[problem.fixed] = False
         inside[problem.contact] = False
-        self.interior = _narrow_order(np.flatnonzero(inside), first, second)
-        low, high = self._numbered(problem.b.size, first, second)
+        self.interior = _cuthill_mckee_order(np.flatnonzero(inside), first, second)
+        low, high = self._elimination_numbers(problem.b.size, first, second)
         self._eliminate(low, high, weight)
 
-    def _numbered(self, size, first, second):
+    def _elimination_numbers(self, size, first, second):
         """Pairs as low <= high, in the numbers of the elimination.
 
         ::
@@ -122,12 +122,12 @@ class Body:
         columns = np.column_stack([loads, noise])
         inner, condensed = self.elimination.condense(columns[self.interior])
         condensed = condensed[:-1] + columns[self.contact]
-        moved, found = self._exchange(condensed, gap, guess.copy())
+        moved, result = self._exchange(condensed, gap, guess.copy())
         u = np.zeros_like(columns)
         kept = np.concatenate([moved, np.zeros((1, columns.shape[1]), dtype=EXTENDED)])
         u[self.interior] = self.elimination.back_substitute(inner, kept)
         u[self.contact] = moved
-        return Response(step=u[:, 0], noise=u[:, 1:], **found)
+        return Response(step=u[:, 0], noise=u[:, 1:], **result)
 
     def _exchange(self, loads, gap, active):
         """The moves of the contact unknowns, and what `Response` tells of them."""
@@ -137,7 +137,7 @@ class Body:
                 active[np.argmin(loads[:, 0])] = True  # nothing else would hold the body
             moved, rate = _equilibrium(self.block, loads, gap, active)
             after, force = gap + moved[:, 0], rate[:, 0]
-            gap_error, force_error = _bound(moved), _bound(rate)
+            gap_error, force_error = _error_bound(moved), _error_bound(rate)
             wrong = np.where(active, force < -force_error, after < -gap_error)
             if not wrong.any():
                 break
@@ -158,7 +158,7 @@ class Body:
         }
 
 
-def _bound(columns):
+def _error_bound(columns):
     """Of the samples of round-off, all columns but the first."""
     return SAFETY * np.max(np.abs(columns[:, 1:]), axis=1, initial=0)
 
@@ -198,7 +198,7 @@ def _equilibrium(block, loads, gap, active):
     return moved, between + to_ground * moved - loads
 
 
-def _narrow_order(nodes, first, second):
+def _cuthill_mckee_order(nodes, first, second):
     """Nodes in an order that keeps those coupled close together (reverse Cuthill-McKee)."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee

@@ -55,13 +55,13 @@ def couplings(mesh, element, coefficient=None):
     stiffness = 1 if coefficient is None else coefficient.astype(EXTENDED)
     scale = EXTENDED(0.5 * _FACTOR[element]) / area * stiffness
     dofs = find_element(element).triangle_dofs(mesh)
-    found = []
+    by_facet = []
     for facet, (one, other) in enumerate(_COUPLED[element]):
         terms = edges[facet - 2] * edges[facet - 1]
         weight = -scale * terms.sum(axis=0)
         rounding = scale * np.abs(terms).sum(axis=0) + cancelled * np.abs(weight)
-        found.append((dofs[one], dofs[other], weight, rounding))
-    return Couplings(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+        by_facet.append((dofs[one], dofs[other], weight, rounding))
+    return Couplings(*(np.concatenate(parts) for parts in zip(*by_facet, strict=True)))
 
 
 def _edge_vectors(mesh):

@@ -52,8 +52,8 @@ def _bounded(S, q, floating):
         return q
     L = np.linalg.cholesky(S)
     right = np.linalg.solve(L, q)
-    found = lsq_linear(L.T, right, (0, np.inf), method="bvls", tol=1e-15, max_iter=1000)
-    return found.x
+    result = lsq_linear(L.T, right, (0, np.inf), method="bvls", tol=1e-15, max_iter=1000)
+    return result.x
 
 
 def _touching(S, q, k):

@@ -6,7 +6,7 @@ import numpy as np
 
 from signorini.fem.mirror import negated
 from signorini.judge.elimination import EXTENDED
-from signorini.solvers.route_result import LEAST_FORCE
+from signorini.solvers.route_result import SMALLEST_FORCE_SCALE
 
 EPS = float(np.finfo(EXTENDED).eps)
 DOUBLE = float(np.finfo(float).eps)
@@ -32,7 +32,7 @@ class Judgement:
         sure above 1.
     variation : longdouble
         max u - min u, or max |u| where u is constant.
-    acting : longdouble
+    force_scale : longdouble
         The largest sum of |a_ij (u_i - u_j)| and |b_i| of a contact row.
     error : float
         Error bound of the judge's own, relative to the variation.
@@ -52,7 +52,7 @@ class Judgement:
     active: np.ndarray
     margin: np.ndarray
     variation: np.longdouble
-    acting: np.longdouble
+    force_scale: np.longdouble
     error: float
     force_error: np.longdouble
     limit: float
@@ -79,14 +79,15 @@ class Judgement:
     def force(self, decided):
         """What errors of contact forces are relative to.
 
-        The largest force at the dofs `decided` (ndarray of bool, shape (nc,)), or else `acting`.
+        The largest force at the dofs `decided` (ndarray of bool, shape (nc,)), or else
+        `force_scale`.
         """
         size = np.max(np.abs(self.multiplier), where=decided, initial=0)
-        return max(size, LEAST_FORCE * self.acting) if size else self.acting
+        return max(size, SMALLEST_FORCE_SCALE * self.force_scale) if size else self.force_scale
 
     def rounding(self, decided):
         """One rounding of the terms of contact forces to double precision, relative to `force`."""
-        return DOUBLE * ratio(self.acting, self.force(decided))
+        return DOUBLE * ratio(self.force_scale, self.force(decided))
 
     def multiplier_limit(self, decided):
         """What rounding all terms to double does to contact forces, relative to `force`."""

@@ -4,14 +4,16 @@ After Ruge & Stüben, in: Multigrid Methods, SIAM (1987); the splitting into coa
 and the interpolation are PyAMG's.
 """
 
+from contextlib import contextmanager
+
 import numpy as np
 
-from signorini.solvers.level import SMALL, Level
+from signorini.solvers.level import COARSEST_SIZE, Level
 from signorini.solvers.solution import largest
 
 _STRONG = 0.25  # of the largest negative coupling of a row, from which on a coupling is strong
-_WILD = 2.0  # weight of an interpolation that positive couplings have spoilt
-_NOTHING = 1e-3  # of the strong couplings of a row: what is too little to divide them by
+_LARGEST_WEIGHT = 2.0  # weight of an interpolation that positive couplings have spoilt
+_SMALLEST_DIVISOR = 1e-3  # of the strong couplings of a row: what is too little to divide them by
 
 
 def algebraic_levels(A, robust=False):
@@ -28,15 +30,21 @@ def algebraic_levels(A, robust=False):
     -------
     list of Level
         Only one where A is small, or no unknown is strongly coupled.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 16)
+    >>> [level.A.shape[0] for level in algebraic_levels(problem.A)]
+    [289, 145, 36]
     """
-    if A.shape[0] <= SMALL:
+    if A.shape[0] <= COARSEST_SIZE:
         return [Level(A, robust=robust)]
-    from pyamg import smoothed_aggregation_solver
     from pyamg.classical.split import RS
-    from scipy.sparse import csr_array, csr_matrix
+    from scipy.sparse import csr_array
 
     levels, coarse = [], csr_array(A)
-    while coarse.shape[0] > SMALL:
+    while coarse.shape[0] > COARSEST_SIZE:
         strong = _strong_couplings(coarse)
         splitting = RS(strong)
         if not 0 < splitting.sum() < splitting.size:
@@ -44,13 +52,32 @@ def algebraic_levels(A, robust=False):
         P = _interpolation(coarse, splitting, strong)
         del strong  # before the product below needs memory
         if P is None:
-            *finer, last = smoothed_aggregation_solver(csr_matrix(A), max_coarse=SMALL).levels
-            levels = [Level(csr_array(level.A), csr_array(level.P), robust) for level in finer]
-            coarse = csr_array(last.A)
-            break
+            return _aggregated_levels(A, robust)
         levels.append(Level(coarse, P, robust))
         coarse = (levels[-1].R @ coarse @ P).tocsr()
     return [*levels, Level(coarse, robust=robust)]
+
+
+def _aggregated_levels(A, robust):
+    """Levels by smoothed aggregation, which needs no weights of single couplings."""
+    from pyamg import smoothed_aggregation_solver
+    from scipy.sparse import csr_array, csr_matrix
+
+    with _seeded():
+        *finer, last = smoothed_aggregation_solver(csr_matrix(A), max_coarse=COARSEST_SIZE).levels
+    levels = [Level(csr_array(level.A), csr_array(level.P), robust) for level in finer]
+    return [*levels, Level(csr_array(last.A), robust=robust)]
+
+
+@contextmanager
+def _seeded():
+    """PyAMG estimates a spectral radius from a random vector: let it be the same each time."""
+    state = np.random.get_state()  # noqa: NPY002 (the generator that PyAMG draws from)
+    np.random.seed(0)  # noqa: NPY002
+    try:
+        yield
+    finally:
+        np.random.set_state(state)  # noqa: NPY002
 
 
 def _strong_couplings(A):
@@ -64,11 +91,11 @@ def _strong_couplings(A):
 
 
 def _interpolation(A, splitting, strong):
-    """The interpolation by strong couplings, CSR, or None where its weights are wild.
+    """The interpolation by strong couplings, CSR, or None where its weights are too large.
 
     The weights of a row are its strong couplings over their sum and that of the whole row. Where
-    positive couplings to held unknowns were left out of the row, its own sum is negative, and both
-    together may be nothing.
+    positive couplings to constrained unknowns were left out of the row, its own sum is negative,
+    and both together may be nothing.
 
     Parameters
     ----------
@@ -85,11 +112,11 @@ def _interpolation(A, splitting, strong):
     strong.data[:] = 1.0
     strong = strong.multiply(A)
     size = strong.diagonal() - strong.sum(axis=1)
-    if np.any(np.abs(size + A.sum(axis=1)) < _NOTHING * size):
+    if np.any(np.abs(size + A.sum(axis=1)) < _SMALLEST_DIVISOR * size):
         return None
     P = _classical_interpolation(A, splitting, strong)
     P.sort_indices()  # so that sums over a row run in one order, whatever version made it
-    return None if largest(P.data) > _WILD else P
+    return None if largest(P.data) > _LARGEST_WEIGHT else P
 
 
 def _classical_interpolation(A, splitting, strong):

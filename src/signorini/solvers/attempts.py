@@ -82,9 +82,9 @@ def attempts(problem, methods=METHODS):
         Of every route that applies.
     """
     for method in methods:
-        found = attempt(problem, method)
-        if found.applies:
-            yield found
+        trial = attempt(problem, method)
+        if trial.applies:
+            yield trial
 
 
 def solutions(problem):
@@ -104,5 +104,5 @@ def solutions(problem):
     SolverError
         If one of them refuses the problem.
     """
-    for found in attempts(problem):
-        yield found.method, found.result()
+    for trial in attempts(problem):
+        yield trial.method, trial.result()

@@ -18,7 +18,7 @@ from signorini.work import count
 
 _ALL, _HALF, _ONE = range(3)  # of the dofs with a wrong sign: what is exchanged at once
 # Exchanges of each block without fewer wrong signs, after which a smaller one is taken; measured.
-PATIENCE = (5, 100, np.inf)
+BLOCK_LIMITS = (5, 100, np.inf)
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return
 
 
@@ -179,7 +179,7 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
 
 
 def _pivot(operator, load, weight, active, max_iterations, singular):
-    rule, solves = Exchange(), 0
+    rule, solves = PivotingRule(), 0
     for iteration in range(1, max_iterations + 1):
         count(steps=1)
         if singular and not active.any():
@@ -206,7 +206,7 @@ def _pivot(operator, load, weight, active, max_iterations, singular):
     )
 
 
-class Exchange:
+class PivotingRule:
     """Block pivoting: which of the dofs with a wrong sign change sides.
 
     All of them; where that stops paying, the worse half; at last one, the last in their order
@@ -250,7 +250,7 @@ class Exchange:
         elif active in self.seen and self.block == _ONE:
             # Murty's rule never returns to an active set: the signs are round-off.
             self.slack, self.seen = 4 * self.slack, set()
-        elif active in self.seen or len(self.seen) >= PATIENCE[self.block]:
+        elif active in self.seen or len(self.seen) >= BLOCK_LIMITS[self.block]:
             self.block, self.seen = self.block + 1, set()
         self.seen.add(active)
 

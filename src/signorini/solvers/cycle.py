@@ -1,4 +1,4 @@
-"""Multigrid cycles on the levels of a hierarchy, with some unknowns held: preconditioners."""
+"""Multigrid cycles on the levels of a hierarchy, some unknowns constrained: preconditioners."""
 
 import numpy as np
 
@@ -6,26 +6,27 @@ from signorini.solvers.algebraic import algebraic_levels
 
 
 class Cycle:
-    """A V(1,1) cycle with some unknowns held: a symmetric positive definite preconditioner of A on
-    the others.
+    """A V(1,1) cycle with some unknowns constrained.
+
+    It is a symmetric positive definite preconditioner of A on the others.
 
     It sweeps forwards before and backwards after the coarse correction, by Gauss and Seidel.
 
     Parameters
     ----------
     levels : list of Level
-    held : ndarray of bool, shape (n,)
+    constrained : ndarray of bool, shape (n,)
         Unknowns of the first level that do not move. A coarse unknown does not move if at least
-        half of one that is held depends on it.
+        half of a constrained one depends on it.
     """
 
-    def __init__(self, levels, held):
-        self.levels, self.held, self.free = levels, [], []
+    def __init__(self, levels, constrained):
+        self.levels, self.constrained, self.free = levels, [], []
         for level in levels:
-            self.held.append(np.flatnonzero(held))
-            self.free.append(np.flatnonzero(~held).astype(np.int32))
+            self.constrained.append(np.flatnonzero(constrained))
+            self.free.append(np.flatnonzero(~constrained).astype(np.int32))
             if level.P is not None:
-                held = level.coarse_mask(held)
+                constrained = level.coarse_mask(constrained)
         rows = self.free[-1]
         self.inverse = np.linalg.inv(levels[-1].A.toarray()[np.ix_(rows, rows)])
 
@@ -38,9 +39,9 @@ class Cycle:
         self.sweep(k, x, r, 1)
         rest = level.product(x)
         np.subtract(r, rest, out=rest)
-        rest[self.held[k]] = 0.0
+        rest[self.constrained[k]] = 0.0
         correction = level.P @ self(level.R @ rest, k + 1)
-        correction[self.held[k]] = 0.0
+        correction[self.constrained[k]] = 0.0
         x += correction
         self.sweep(k, x, r, -1)
         return x
@@ -64,11 +65,14 @@ class Cycle:
         gauss_seidel_indexed(A.indptr, A.indices, A.data, x, r, rows, first, end, step)
 
 
-class Eliminated:
-    """The same with the held unknowns eliminated first: levels follow what is left of A alone."""
+class EliminatedCycle:
+    """The same with the constrained unknowns eliminated first.
 
-    def __init__(self, levels, held):
-        self.level, self.rows = levels[0], np.flatnonzero(~held)
+    Levels follow what is left of the matrix, and no mesh.
+    """
+
+    def __init__(self, levels, constrained):
+        self.level, self.rows = levels[0], np.flatnonzero(~constrained)
         A = levels[0].A[self.rows][:, self.rows]
         inner = algebraic_levels(A, robust=True)
         self.inner = Cycle(inner, np.zeros(self.rows.size, dtype=bool))
@@ -80,18 +84,18 @@ class Eliminated:
         return z
 
 
-def preconditioner(levels, held):
-    """A preconditioner with some unknowns held.
+def preconditioner(levels, constrained):
+    """A preconditioner with some unknowns constrained.
 
     Parameters
     ----------
     levels : list of Level
         Finest first.
-    held : ndarray of bool, shape (n,)
+    constrained : ndarray of bool, shape (n,)
 
     Returns
     -------
     Cycle or Eliminated
         The latter where the levels ask for it.
     """
-    return (Eliminated if levels[0].robust else Cycle)(levels, held)
+    return (EliminatedCycle if levels[0].robust else Cycle)(levels, constrained)

@@ -14,14 +14,21 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
-from signorini.solvers.contact import Exchange, solve_contact
-from signorini.solvers.line_elimination import Edges, Vertices, strip_of
-from signorini.solvers.route_result import Errors, better, proved, size_of, to_close, wrong_signs
+from signorini.solvers.contact import PivotingRule, solve_contact
+from signorini.solvers.line_elimination import EdgeLines, VertexLines, orient
+from signorini.solvers.route_result import (
+    ErrorEstimates,
+    assess,
+    dofs_to_bind,
+    more_accurate,
+    variation_of,
+    violated_signs,
+)
 from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
 from signorini.work import count
 
-_ELIMINATIONS = {"P1": Vertices, "CR": Edges}
+_ELIMINATIONS = {"P1": VertexLines, "CR": EdgeLines}
 _MAX_STEPS = 100
 _CORRECTIONS = 5
 _CERTAIN = 1e-12  # a correction of which share of u is one to the last digits
@@ -43,7 +50,7 @@ def why_not(problem):
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:
         return "the grid is a single cell wide"
-    return None if strip_of(grid) else "the two sides beside the contact side differ in kind"
+    return None if orient(grid) else "the two sides beside the contact side differ in kind"
 
 
 def solve_fourier(problem, guess=None):
@@ -66,22 +73,23 @@ def solve_fourier(problem, guess=None):
     SolverError
         If the active-set iteration does not end.
     """
-    route = _ELIMINATIONS[problem.element](problem.grid, strip_of(problem.grid))
-    line = _Line(guess, singular=problem.fixed.size == 0)
-    u = _displacement(problem, route, _shifted_load(problem), line.find_gap)
+    elimination = _ELIMINATIONS[problem.element](problem.grid, orient(problem.grid))
+    line = _ContactLine(guess, singular=problem.fixed.size == 0)
+    u = _displacement(problem, elimination, _shifted_load(problem), line.solve_contact_problem)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] += problem.lower
-    rule, first = Exchange(), None
+    rule, first = PivotingRule(), None
     for _ in range(_MAX_STEPS):
-        gap, errors = _refined(problem, route, line, u)
-        wrong = wrong_signs(line.active, gap, line.force, errors)
-        near = to_close(u, line.active, gap, errors)
+        gap, errors = _refined(problem, elimination, line, u)
+        wrong = violated_signs(line.active, gap, line.force, errors)
+        near = dofs_to_bind(u, line.active, gap, errors)
         if wrong.any():
             line.exchange(rule.choose(line.active, wrong, np.where(line.active, line.force, gap)))
         elif first is not None or not near.any():
-            return better(first, proved(u, line.active, line.iterations, gap, line.force, errors))
+            last = assess(u, line.active, line.iterations, gap, line.force, errors)
+            return more_accurate(first, last)
         else:
-            first = proved(u.copy(), line.active, line.iterations, gap, line.force, errors)
+            first = assess(u.copy(), line.active, line.iterations, gap, line.force, errors)
             line.active = line.active | near
         u[problem.contact[line.active]] = problem.lower[line.active]
     raise SolverError(
@@ -89,20 +97,20 @@ def solve_fourier(problem, guess=None):
     )
 
 
-def _refined(problem, route, line, u):
+def _refined(problem, elimination, line, u):
     """Correct u in place until corrections stop falling, mostly once; the gaps, and the errors of
     all.
     """
     last = np.inf
     for _ in range(_CORRECTIONS):
         before = line.force
-        correction = _displacement(problem, route, _residual(problem, u), line.correct_gap)
-        gap = (u[problem.contact] - problem.lower) + correction[
-            problem.contact
-        ]  # before u rounds it off
+        rest = _residual(problem, u)
+        correction = _displacement(problem, elimination, rest, line.solve_with_fixed_set)
+        # The correction goes to the gap before u rounds it off.
+        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]
         u += correction
         size, change = largest(correction), largest(line.force - before)
-        if size <= _CERTAIN * size_of(u) or size > 0.5 * last:
+        if size <= _CERTAIN * variation_of(u) or size > 0.5 * last:
             break
         last = size
     return gap, _errors(problem, u, size, change, line.stiffness)
@@ -117,14 +125,15 @@ def _residual(problem, u):
 def _errors(problem, u, correction, change, stiffness):
     """Errors of u and of the forces, by their last changes."""
     _, fluxes, _ = problem.contact_fluxes(u)
-    acting = np.max(fluxes + np.abs(problem.b[problem.contact]), initial=0.0)
-    gap, force = _SAFETY * max(correction, EPS * largest(u)), _SAFETY * max(change, EPS * acting)
+    force_scale = np.max(fluxes + np.abs(problem.b[problem.contact]), initial=0.0)
+    force = max(change, EPS * force_scale)
     shape = problem.contact.shape
-    gaps, forces = np.full(shape, gap), np.full(shape, force)
-    return Errors(correction, max(change, EPS * acting), gaps, forces, forces, stiffness, acting)
+    gaps = np.full(shape, _SAFETY * max(correction, EPS * largest(u)))
+    forces = np.full(shape, _SAFETY * force)
+    return ErrorEstimates(correction, force, gaps, forces, forces, stiffness, force_scale)
 
 
-class _Line:
+class _ContactLine:
     """The contact line: its set is found once, and held when the solution is refined."""
 
     def __init__(self, guess, singular):
@@ -132,14 +141,14 @@ class _Line:
         self.active, self.force, self.stiffness = np.zeros(0, dtype=bool), np.zeros(0), np.zeros(0)
         self.iterations = 0
 
-    def find_gap(self, operator, q):
+    def solve_contact_problem(self, operator, q):
         """The gap under the condensed load q, shape (nc,)."""
         result = solve_contact(operator, q, guess=self.guess, singular=self.singular)
         self.active, self.iterations = result.active, result.iterations
         self.force, self.stiffness = self._force(operator, result.w, q), operator.diagonal()
         return result.w
 
-    def correct_gap(self, operator, q):
+    def solve_with_fixed_set(self, operator, q):
         """The change of the gap under a further load, none in the contact set."""
         w, free = np.zeros(q.size), ~self.active
         if free.any():
@@ -158,27 +167,26 @@ class _Line:
         self.iterations += 1
 
 
-def _displacement(problem, route, load, gap_under):
+def _displacement(problem, elimination, load, gap_under):
     """What a load does: u, zero on the fixed dofs, whose gap on the contact line is
     ``gap_under(operator, q)``.
     """
-    rows = route.condense(load)
-    if route.basis.weighted:
-        rows /= route.basis.mass
+    basis = elimination.basis
+    rows = elimination.condense(load)
+    if basis.weighted:
+        rows /= basis.mass
     count(factorisations=1)
-    factors, symbol = route.eliminate(route.basis.forward(rows, out=rows))
+    factors, symbol = elimination.eliminate(basis.forward(rows, out=rows))
     gap = np.zeros(0)
     if problem.contact.size:
-        gap = gap_under(
-            contact_operator(route.basis, symbol), route.basis.mass * route.basis.backward(rows[0])
-        )
-        rows[0] = route.basis.forward(gap)
+        gap = gap_under(contact_operator(basis, symbol), basis.mass * basis.backward(rows[0]))
+        rows[0] = basis.forward(gap)
     else:
         rows[0] /= symbol
     for j in range(1, rows.shape[0]):
         rows[j] += factors[j] * rows[j - 1]
     del factors
-    u = route.back_substitute(route.basis.backward(rows, out=rows), load)
+    u = elimination.back_substitute(basis.backward(rows, out=rows), load)
     u[problem.fixed] = 0.0
     u[problem.contact] = gap
     return u

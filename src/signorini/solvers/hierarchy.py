@@ -1,5 +1,4 @@
-"""Levels for multigrid: the meshes that a mesh was refined from, and below them coarsening by the
-matrix alone.
+"""Levels for multigrid: the meshes that a mesh was refined from, and algebraic ones below them.
 
 CR stands on conforming P1 on the same mesh, which it contains; P1 stands on P1 on the mesh it was
 refined from, whose matrix equals the Galerkin product, but for cells at curved sides, where it is
@@ -18,12 +17,9 @@ from signorini.fem.stiffness import assemble_stiffness
 from signorini.mesh.bisection import over_ancestors
 from signorini.mesh.curved import curved_vertices
 from signorini.solvers.algebraic import algebraic_levels
-from signorini.solvers.level import SMALL, Level
+from signorini.solvers.conditioning import JUMP, has_jumps, is_regular
+from signorini.solvers.level import COARSEST_SIZE, Level
 
-# Cells beyond which levels that know only the mesh take more steps than algebraic ones; measured.
-STRETCHED = 8.0
-# Of the coefficient within a triangle of the coarser mesh, which that mesh then cannot follow.
-_JUMP = 30.0
 # Of local refinements: the share of a mesh's vertices that the next level has at most, where not
 # more meshes than these are passed over for it; measured.
 _SHARE = 0.5
@@ -33,26 +29,43 @@ _PASSED_OVER = 3
 def build_hierarchy(problem):
     """The levels of a problem, finest first.
 
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    list of Level
+
     Raises
     ------
     MeshError
         If the problem's mesh is not the refinement of the mesh it names as coarser.
+
+    Examples
+    --------
+    The unknowns of CR, of P1 on the same mesh, and of P1 on the mesh it was refined from:
+
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 16)
+    >>> [level.A.shape[0] for level in build_hierarchy(problem)]
+    [800, 289, 81]
     """
     levels, mesh, A, k = [], problem.mesh, problem.A, problem.coefficient
     robust = False
     if not is_regular(mesh):
         return algebraic_levels(A, robust=True)
     ends = problem.finite_element.vertex_means(mesh)
-    if ends is not None and A.shape[0] > SMALL:
-        levels.append(Level(A, _means(ends, mesh.number_of_vertices)))
+    if ends is not None and A.shape[0] > COARSEST_SIZE:
+        levels.append(Level(A, _averaging(ends, mesh.number_of_vertices)))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
-    while A.shape[0] > SMALL and mesh.coarser() is not None:
+    while A.shape[0] > COARSEST_SIZE and mesh.coarser() is not None:
         P, mesh, k, follows = _coarsened(mesh, k)
         robust = robust or not follows
         levels.append(Level(A, P))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
     below = algebraic_levels(A)
-    robust = robust or (jumps(k) and (ends is not None or problem.mesh.coarser() is None))
+    robust = robust or (has_jumps(k) and (ends is not None or problem.mesh.coarser() is None))
     levels += below
     return [replace(level, robust=True) for level in levels] if robust else levels
 
@@ -94,46 +107,14 @@ def _one_coarser(mesh, k):
     """As `_coarsened`, of the mesh that `mesh` was refined from."""
     coarse, parents = mesh.coarser(), mesh.vertex_parents()
     _check_nested(mesh, coarse, parents)
-    P = _means(parents, coarse.number_of_vertices)
+    P = _averaging(parents, coarse.number_of_vertices)
     if k is None:
         return P, coarse, None, True
     least, mean, greatest = over_ancestors(mesh, k)
-    return P, coarse, mean, not np.any(greatest > _JUMP * least)
+    return P, coarse, mean, not np.any(greatest > JUMP * least)
 
 
-def jumps(coefficient):
-    """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot
-    follow it.
-    """
-    return coefficient is not None and bool(coefficient.max() > _JUMP * coefficient.min())
-
-
-def is_regular(mesh):
-    """Whether no cell of a mesh is stretched."""
-    return mesh.stretch <= STRETCHED
-
-
-def is_nested(mesh):
-    """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell
-    is stretched.
-    """
-    return mesh.coarser() is not None and is_regular(mesh)
-
-
-def causes(problem):
-    """What in a problem costs digits: cell shapes, the coefficient; and the remedy; a message."""
-    reasons = []
-    if problem.mesh.stretch > STRETCHED:
-        reasons.append(
-            f"there are cells {problem.mesh.stretch:.2g} times as long as high; stretch cells less"
-        )
-    if jumps(problem.coefficient):
-        contrast = problem.coefficient.max() / problem.coefficient.min()
-        reasons.append(f"the coefficient varies by {contrast:.1g}; let it vary less")
-    return ", and ".join(reasons) or "look for data of very different sizes"
-
-
-def _means(pairs, count):
+def _averaging(pairs, count):
     """The matrix of the means of pairs of `count` values; a pair of equals stands for the one
     value.
     """

@@ -7,7 +7,7 @@ import numpy as np
 
 from signorini.fem.residual import residual, row_sums
 
-SMALL = 100  # unknowns of a level that is solved with a dense inverse
+COARSEST_SIZE = 100  # unknowns of a level that is solved with a dense inverse
 HALF = 0.5 - 1e-9  # share of a coarse unknown from which it is that of the fine ones
 _EXACT = 1e6  # range of the diagonal beyond which products are taken by differences
 
@@ -22,8 +22,9 @@ class Level:
     P : scipy.sparse.csr_array, shape (n, m), optional
         Prolongation; None on the coarsest level.
     robust : bool
-        Whether levels below are to follow A with the held unknowns eliminated (`Eliminated`), since
-        held ones and stiff or stretched neighbours cannot share a coarse unknown.
+        Whether levels below are to follow A with the constrained unknowns eliminated
+        (`EliminatedCycle`), since those and stiff or stretched neighbours cannot share a coarse
+        unknown.
     """
 
     A: object

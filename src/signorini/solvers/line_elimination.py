@@ -14,36 +14,55 @@ _BESIDE = {"bottom": ("left", "right"), "left": ("bottom", "top")}
 
 
 @dataclass(frozen=True)
-class Strip:
+class OrientedGrid:
     """A grid turned so that its contact side lies at row 0; `along` runs on that side, `away` from
     it.
     """
 
     side: str
-    kinds: dict
-    near: str
-    far: str
-    beside: str
+    labels: dict
+    near_label: str
+    far_label: str
+    beside_label: str
     along: int
     away: int
     k_along: float
     k_away: float
 
-    def turn(self, rows):
+    def orient_rows(self, rows):
         """Turn an array of the grid (row 0 at the bottom) so that row 0 lies on the contact side;
-        undone by `back`.
+        undone by `restore_rows`.
         """
         rows = rows[:, ::-1].T if self.side == "right" else rows.T if self.side == "left" else rows
         return rows[::-1] if self.side == "top" else rows
 
-    def back(self, rows):
-        """Undo `turn`."""
+    def restore_rows(self, rows):
+        """Undo `orient_rows`."""
         rows = rows[::-1] if self.side == "top" else rows
         return rows.T[:, ::-1] if self.side == "right" else rows.T if self.side == "left" else rows
 
 
-def strip_of(grid):
-    """The grid as a `Strip`, or None where the two sides beside its contact side differ in kind."""
+def orient(grid):
+    """Turn a grid so that its contact side is row 0.
+
+    Parameters
+    ----------
+    grid : Grid
+
+    Returns
+    -------
+    OrientedGrid or None
+        None where the conditions on the two sides beside the contact side differ.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("neumann", "contact", "neumann", "dirichlet")
+    >>> grid = Grid(4, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> oriented = orient(grid)
+    >>> oriented.side, oriented.along, oriented.away
+    ('right', 2, 4)
+    """
     labels = dict(zip(SIDES, grid.labels, strict=True))
     hx, hy = grid.spacing
     for side in grid.sides("contact") or ("bottom", "left"):
@@ -53,18 +72,19 @@ def strip_of(grid):
             along, away = (grid.ny, grid.nx) if vertical else (grid.nx, grid.ny)
             kx, ky = hy / hx, hx / hy
             k = (ky, kx) if vertical else (kx, ky)
-            return Strip(
-                side, labels, labels[side], labels[_OPPOSITE[side]], beside.pop(), along, away, *k
+            far_label = labels[_OPPOSITE[side]]
+            return OrientedGrid(
+                side, labels, labels[side], far_label, beside.pop(), along, away, *k
             )
     return None
 
 
-class Rows:
+class LineElimination:
     """Rows of unknowns, row 0 on or next to the contact side, coupled to the rows above and below
     alone.
 
     Row j couples with row j - 1 by ``-k_away coupling[j]``; its diagonal is ``mass[j] k_along
-    eigenvalue``, and k_away times its couplings to both neighbours and `held`, a whole number.
+    eigenvalue``, and k_away times its couplings to both neighbours and `row_sums`, a whole number.
     """
 
     def eliminate(self, rows):
@@ -80,55 +100,56 @@ class Rows:
         symbol : ndarray
             What is left of the diagonal of row 0: the eigenvalues of S.
         """
-        eigenvalues = self.strip.k_along * self.basis.eigenvalues
-        coupling, held = self.strip.k_away * self.coupling, self.strip.k_away * self.held
+        eigenvalues = self.oriented.k_along * self.basis.eigenvalues
+        coupling = self.oriented.k_away * self.coupling
+        row_sums = self.oriented.k_away * self.row_sums
         factors = np.empty_like(rows)
-        excess = self.mass[-1] * eigenvalues + held[-1]
+        excess = self.mass[-1] * eigenvalues + row_sums[-1]
         for j in range(rows.shape[0] - 1, 0, -1):
             pivot = coupling[j] + excess
             np.divide(coupling[j], pivot, out=factors[j])
             rows[j - 1] += factors[j] * rows[j]
             rows[j] /= pivot
-            excess = self.mass[j - 1] * eigenvalues + (held[j - 1] + factors[j] * excess)
+            excess = self.mass[j - 1] * eigenvalues + (row_sums[j - 1] + factors[j] * excess)
         return factors, excess
 
 
-def _held(diagonal, coupling):
+def _row_sums(diagonal, coupling):
     """What is left of each row's diagonal without the couplings to its neighbours, in units of
     k_away.
     """
-    held = diagonal.copy()
-    held[1:] -= coupling[1:]
-    held[:-1] -= coupling[1:]
-    return held
+    row_sums = diagonal.copy()
+    row_sums[1:] -= coupling[1:]
+    row_sums[:-1] -= coupling[1:]
+    return row_sums
 
 
-class Vertices(Rows):
+class VertexLines(LineElimination):
     """P1: a row of vertices at a time."""
 
-    def __init__(self, grid, strip):
-        self.grid, self.strip = grid, strip
-        fixed_sides = strip.beside == "dirichlet"
+    def __init__(self, grid, oriented):
+        self.grid, self.oriented = grid, oriented
+        fixed_sides = oriented.beside_label == "dirichlet"
         self.basis = (transforms.vertex_sines if fixed_sides else transforms.vertex_cosines)(
-            strip.along
+            oriented.along
         )
         self.columns = slice(1, -1) if fixed_sides else slice(None)
-        self.rows = slice(
-            int(strip.near == "dirichlet"), strip.away + int(strip.far != "dirichlet")
-        )
-        self.mass = np.ones(strip.away + 1)
+        first = int(oriented.near_label == "dirichlet")
+        end = oriented.away + int(oriented.far_label != "dirichlet")
+        self.rows = slice(first, end)
+        self.mass = np.ones(oriented.away + 1)
         self.mass[[0, -1]] = 0.5
         self.mass = self.mass[self.rows]
         self.coupling = np.ones(self.mass.size)
-        self.held = _held(2.0 * self.mass, self.coupling)
+        self.row_sums = _row_sums(2.0 * self.mass, self.coupling)
 
     def _shape(self):
         return self.grid.ny + 1, self.grid.nx + 1
 
     def condense(self, load):
-        return np.array(
-            self.strip.turn(load.reshape(self._shape()))[self.rows, self.columns], order="C"
-        )
+        """The load on the rows of vertices that are eliminated."""
+        rows = self.oriented.orient_rows(load.reshape(self._shape()))
+        return np.array(rows[self.rows, self.columns], order="C")
 
     def back_substitute(self, rows, load):
         """All dofs, from those of the rows.
@@ -146,44 +167,44 @@ class Vertices(Rows):
             Unit of u.
         """
         u = np.zeros(self._shape())
-        self.strip.turn(u)[self.rows, self.columns] = rows
+        self.oriented.orient_rows(u)[self.rows, self.columns] = rows
         return u.ravel()
 
 
-class Edges(Rows):
+class EdgeLines(LineElimination):
     """CR: a row of diagonal edges at a time, and the edges of the contact side as row 0.
 
     An edge parallel to an axis couples with the diagonal edges of its one or two cells alone; it is
     eliminated exactly: half its load to each of two, all of it to one.
     """
 
-    def __init__(self, grid, strip):
-        self.grid, self.strip = grid, strip
-        fixed_sides = strip.beside == "dirichlet"
+    def __init__(self, grid, oriented):
+        self.grid, self.oriented = grid, oriented
+        fixed_sides = oriented.beside_label == "dirichlet"
         self.basis = (transforms.midpoint_sines if fixed_sides else transforms.midpoint_cosines)(
-            strip.along
+            oriented.along
         )
-        self.line = int(strip.near != "dirichlet")
+        self.line = int(oriented.near_label != "dirichlet")
         end = {"dirichlet": 2.0, "contact": 2.0, "neumann": 0.0}
-        below, above = np.ones(strip.away), np.ones(strip.away)
-        below[0], above[-1] = 2.0, end[strip.far]
-        self.mass = np.ones(strip.away + self.line)
+        below, above = np.ones(oriented.away), np.ones(oriented.away)
+        below[0], above[-1] = 2.0, end[oriented.far_label]
+        self.mass = np.ones(oriented.away + self.line)
         self.coupling = np.ones(self.mass.size)
         if self.line:
             self.mass[0] = 0.0
             self.coupling[1] = 2.0
-        self.held = _held(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
+        self.row_sums = _row_sums(np.concatenate([[2.0] * self.line, below + above]), self.coupling)
 
     def _shares(self, sides):
         """What an edge hands to each of its cells, by rows (or columns) of edges that two sides
-        end; none if held.
+        end; none if constrained.
         """
-        held = [
-            self.strip.kinds[side] == "dirichlet" or (side == self.strip.side and self.line)
+        constrained = [
+            self.oriented.labels[side] == "dirichlet" or (side == self.oriented.side and self.line)
             for side in sides
         ]
         shares = np.full((self.grid.nx if sides[0] == "left" else self.grid.ny) + 1, 0.5)
-        shares[[0, -1]] = np.where(held, 0.0, 1.0)
+        shares[[0, -1]] = np.where(constrained, 0.0, 1.0)
         return shares
 
     def _blocks(self, load):
@@ -201,10 +222,11 @@ class Edges(Rows):
             )
 
     def condense(self, load):
-        rows = np.empty((self.strip.away + self.line, self.strip.along))
-        cells = self.strip.back(rows[self.line :])
+        """The load on the rows, that of the edges between them included."""
+        rows = np.empty((self.oriented.away + self.line, self.oriented.along))
+        cells = self.oriented.restore_rows(rows[self.line :])
         if self.line:
-            rows[0] = load[self.grid.side_facets(self.strip.side)]
+            rows[0] = load[self.grid.side_facets(self.oriented.side)]
         for first, last, h, v, d, share_h, share_v in self._blocks(load):
             h *= share_h
             v *= share_v
@@ -226,7 +248,7 @@ class Edges(Rows):
             Unit of u.
         """
         u = np.zeros_like(load)
-        cells = self.strip.back(rows[self.line :])
+        cells = self.oriented.restore_rows(rows[self.line :])
         hx, hy = self.grid.spacing
         k_h, k_v = hx / hy, hy / hx
         for first, last, h, v, _, share_h, share_v in self._blocks(load):
@@ -243,5 +265,5 @@ class Edges(Rows):
             v[:, :-1] += d
             self.grid.add_edges(u, first, share_h * h, share_v * v, d)
         if self.line:
-            u[self.grid.side_facets(self.strip.side)] = rows[0]
+            u[self.grid.side_facets(self.oriented.side)] = rows[0]
         return u

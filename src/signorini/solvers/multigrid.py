@@ -5,7 +5,7 @@ Each level starts from the solution and the contact set of the one before (neste
 conjugate gradients run, signs on the contact part are looked at in every step: what violates them
 by more than the error that is left nearby changes sides, and the iteration goes on with the new set
 held. So a set is never solved for more accurately than is needed to see that it is wrong. Exchanges
-are safeguarded as on the other routes (`contact.Exchange`).
+are safeguarded as on the other routes (`contact.PivotingRule`).
 
 On the finest level conjugate gradients run on corrections, each time from a residual by
 differences, so that no entry of A limits them; then the errors of gaps and forces are bounded, and
@@ -18,10 +18,17 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import check_memory
-from signorini.solvers.hierarchy import build_hierarchy, causes
+from signorini.solvers.conditioning import accuracy_loss_causes
+from signorini.solvers.hierarchy import build_hierarchy
 from signorini.solvers.level import HALF
-from signorini.solvers.route_result import NO_DIGIT, Errors, better, to_close, wrong_signs
-from signorini.solvers.search import Search
+from signorini.solvers.level_solver import LevelSolver
+from signorini.solvers.route_result import (
+    USELESS_ACCURACY,
+    ErrorEstimates,
+    dofs_to_bind,
+    more_accurate,
+    violated_signs,
+)
 from signorini.work import counting
 
 
@@ -64,39 +71,39 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     active = obstacles[-1].b[obstacles[-1].contact] <= 0.0
     with counting():  # work on coarser levels is not that of the finest
         for k in range(len(levels) - 1, 0, -1):
-            search = Search(levels[k:], obstacles[k], u, active)
-            search.run(0.1 / u.size)
+            solver = LevelSolver(levels[k:], obstacles[k], u, active)
+            solver.solve(0.1 / u.size)
             u, active = _prolong(
-                levels[k - 1], obstacles[k], obstacles[k - 1], search.u, search.active
+                levels[k - 1], obstacles[k], obstacles[k - 1], solver.u, solver.active
             )
-    search = Search(levels, obstacles[0], u, active if guess is None else guess)
+    solver = LevelSolver(levels, obstacles[0], u, active if guess is None else guess)
     if tolerance:
-        search.run(tolerance)
+        solver.solve(tolerance)
         nothing = np.zeros(problem.contact.size)
-        return search.found(
-            Errors(tolerance * np.ptp(search.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0)
+        return solver.result(
+            ErrorEstimates(tolerance * np.ptp(solver.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0)
         )
-    return _proved(problem, search)
+    return _solve_to_rounding(problem, solver)
 
 
-def _proved(problem, search):
+def _solve_to_rounding(problem, solver):
     """Solve to the last bit, until no sign is wrong beyond its own error."""
     first = None
     while True:
-        search.run(0.0)
-        errors = search.errors()
-        if not errors.u <= NO_DIGIT * np.ptp(search.u):
-            raise SolverError(
-                f"domain: no digit of the solution survives rounding: {causes(problem)}"
-            )
-        wrong = wrong_signs(search.active, search.gap, search.force, errors)
+        solver.solve(0.0)
+        errors = solver.errors()
+        if not errors.u <= USELESS_ACCURACY * np.ptp(solver.u):
+            causes = accuracy_loss_causes(problem)
+            raise SolverError(f"domain: no digit of the solution survives rounding: {causes}")
+        wrong = violated_signs(solver.active, solver.gap, solver.force, errors)
         if wrong.any():
-            search.exchange(wrong)
+            solver.exchange(wrong)
             continue
-        found, near = search.found(errors), to_close(search.u, search.active, search.gap, errors)
+        result = solver.result(errors)
+        near = dofs_to_bind(solver.u, solver.active, solver.gap, errors)
         if first is not None or not near.any():
-            return better(first, found)
-        first, search.u, search.active = found, search.u.copy(), search.active | near
+            return more_accurate(first, result)
+        first, solver.u, solver.active = result, solver.u.copy(), solver.active | near
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,31 +118,31 @@ class Obstacle:
     fixed: np.ndarray
     fixed_values: np.ndarray
 
-    def held(self, active):
+    def constrained(self, active):
         """Which unknowns do not move, shape (n,): the fixed ones, and those in the contact set
         `active`.
         """
-        held = np.zeros(self.b.size, dtype=bool)
-        held[self.fixed] = True
-        held[self.contact[active]] = True
-        return held
+        constrained = np.zeros(self.b.size, dtype=bool)
+        constrained[self.fixed] = True
+        constrained[self.contact[active]] = True
+        return constrained
 
     def restricted(self, level):
         """The same on the next coarser level: means of the obstacle and of the Dirichlet values
         nearby.
         """
-        fixed, values = _restricted(level, self.fixed, self.fixed_values)
-        contact, lower = _restricted(level, self.contact, self.lower)
+        fixed, values = _restricted_values(level, self.fixed, self.fixed_values)
+        contact, lower = _restricted_values(level, self.contact, self.lower)
         apart = ~np.isin(contact, fixed)
         return Obstacle(level.R @ self.b, contact[apart], lower[apart], fixed, values)
 
 
-def _restricted(level, marked, values):
+def _restricted_values(level, marked, values):
     marks, weighted = np.zeros(level.A.shape[0]), np.zeros(level.A.shape[0])
     marks[marked], weighted[marked] = 1.0, values
     weight = level.R @ marks
-    found = np.flatnonzero(weight >= HALF)
-    return found, (level.R @ weighted)[found] / weight[found]
+    result = np.flatnonzero(weight >= HALF)
+    return result, (level.R @ weighted)[result] / weight[result]
 
 
 def _prolong(level, coarse, fine, u, active):

@@ -7,15 +7,14 @@ import numpy as np
 from signorini.fem.residual import EPS
 from signorini.solvers.solution import SOLVED
 
-_TOUCHING = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
+_ROUND_OFF_GAP = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
 # Of the forces acting: a contact force smaller than this is not what others are measured by.
-LEAST_FORCE = 1e-6
-SAFETY, _PESSIMISM = (
-    3.0,
-    1e3,
-)  # of a bound over the sample at the same dof, at least; over the largest, at most
+SMALLEST_FORCE_SCALE = 1e-6
+SAFETY = 3.0  # a bound is at least so many times the sample at the same dof,
+_LARGEST_BOUND = 1e3  # and at most so many times the largest sample
 ROUNDING = 64.0  # roundings of the largest gap and force, below which a sign may be one
-NO_DIGIT = 0.1  # error of u, relative to its variation, from which there is no solution to return
+# Error of u, relative to its variation, from which there is no solution to return.
+USELESS_ACCURACY = 0.1
 
 
 class RouteResult(NamedTuple):
@@ -49,7 +48,7 @@ class RouteResult(NamedTuple):
     undecided: np.ndarray
 
 
-class Errors(NamedTuple):
+class ErrorEstimates(NamedTuple):
     """Estimated errors with a contact set held.
 
     Attributes
@@ -63,7 +62,7 @@ class Errors(NamedTuple):
         gap.
     stiffness : ndarray, shape (nc,)
         About the force on each contact dof that moves it by one.
-    acting : float
+    force_scale : float
         The largest force that acts on a contact dof at all: the sum of the sizes of its load and
         its fluxes.
     """
@@ -74,15 +73,15 @@ class Errors(NamedTuple):
     forces: np.ndarray
     loads: np.ndarray
     stiffness: np.ndarray
-    acting: float
+    force_scale: float
 
 
-def bound_of(pushed, samples):
+def error_bounds(one_way, samples):
     """Bounds of the errors of gaps or forces, from what rounding does to them.
 
     Parameters
     ----------
-    pushed : ndarray, shape (nc,)
+    one_way : ndarray, shape (nc,)
         The effect of all rounding pushing one way: a bound where inv(A) >= 0, and far too much on
         stretched CR cells.
     samples : ndarray, shape (k, nc)
@@ -94,16 +93,16 @@ def bound_of(pushed, samples):
         Unit of the samples.
     """
     samples = np.abs(samples)
-    low, high = SAFETY * samples.max(axis=0), _PESSIMISM * samples.max(initial=0.0)
-    return np.maximum(np.minimum(np.abs(pushed), high), low)
+    low, high = SAFETY * samples.max(axis=0), _LARGEST_BOUND * samples.max(initial=0.0)
+    return np.maximum(np.minimum(np.abs(one_way), high), low)
 
 
-def size_of(u):
+def variation_of(u):
     """What errors of u are relative to: its variation, or its size where it is constant."""
     return (float(np.ptp(u)) or float(np.max(np.abs(u)))) if u.size else 0.0
 
 
-def wrong_signs(active, gap, force, errors, variation=None):
+def violated_signs(active, gap, force, errors, variation=None):
     """Contact dofs whose sign is wrong beyond its own error.
 
     That is the sign of the gap, or where a dof binds of its force.
@@ -124,11 +123,11 @@ def wrong_signs(active, gap, force, errors, variation=None):
     gaps, forces = errors.gaps, errors.forces
     if variation is not None:
         gaps = np.minimum(gaps, ROUNDING * EPS * variation)
-        forces = np.minimum(forces, ROUNDING * EPS * errors.acting)
+        forces = np.minimum(forces, ROUNDING * EPS * errors.force_scale)
     return np.where(active, force < -forces, gap < -gaps)
 
 
-def to_close(u, active, gap, errors):
+def dofs_to_bind(u, active, gap, errors):
     """Contact dofs that are to bind although their gap may be positive.
 
     Above the obstacle by round-off alone they count as binding, so that no route decides them.
@@ -147,14 +146,14 @@ def to_close(u, active, gap, errors):
     -------
     ndarray of bool, shape (nc,)
     """
-    variation = size_of(u)
-    apart = ~active & (gap <= errors.gaps)
-    if errors.u + _largest(gap, apart) > SOLVED * variation:
-        return apart
-    return apart & (gap <= _TOUCHING * variation)
+    variation = variation_of(u)
+    not_binding = ~active & (gap <= errors.gaps)
+    if errors.u + _largest(gap, not_binding) > SOLVED * variation:
+        return not_binding
+    return not_binding & (gap <= _ROUND_OFF_GAP * variation)
 
 
-class Released(NamedTuple):
+class ReleaseEffect(NamedTuple):
     """What rounding does at most where dofs that may not bind are let go: to u, to each gap and to
     each force (nc,).
     """
@@ -164,7 +163,7 @@ class Released(NamedTuple):
     forces: np.ndarray
 
 
-def proved(u, active, iterations, gap, force, errors, released=None):
+def assess(u, active, iterations, gap, force, errors, released=None):
     """The answer of a route none of whose signs are wrong.
 
     An undecided dof may be on the other side, and move by what its force could do, or press by what
@@ -185,29 +184,30 @@ def proved(u, active, iterations, gap, force, errors, released=None):
     -------
     RouteResult
     """
-    released = released or Released(0.0, 0.0, 0.0)
+    released = released or ReleaseEffect(0.0, 0.0, 0.0)
     undecided = np.where(
         active, force <= errors.forces + released.forces, gap <= errors.gaps + released.gaps
     )
-    if (
-        undecided.any()
-    ):  # then any sign no surer than the least sure error of all may depend on theirs
+    if undecided.any():  # then any sign no surer than the least sure of all may depend on theirs
         undecided |= np.where(active, force <= SAFETY * errors.force, gap <= SAFETY * errors.u)
-    binding, apart = active & undecided, ~active & undecided
+    binding, not_binding = active & undecided, ~active & undecided
     stiffness = np.broadcast_to(errors.stiffness, force.shape)
     shift = np.divide(force, stiffness, out=np.full(force.shape, np.inf), where=stiffness > 0.0)
-    moved = max(released.u, _largest(shift, binding)) + _largest(gap, apart)
-    pressed = _largest(force, binding) + _largest(errors.loads, apart)
-    variation = size_of(u)
-    accuracy = _share(errors.u + moved, variation)
-    largest = _largest(force, active & ~undecided)
-    largest = max(largest, LEAST_FORCE * errors.acting) if largest else errors.acting
-    return RouteResult(
-        u, active, iterations, accuracy, force, _share(errors.force + pressed, largest), undecided
-    )
+    moved = max(released.u, _largest(shift, binding)) + _largest(gap, not_binding)
+    pressed = _largest(force, binding) + _largest(errors.loads, not_binding)
+    variation = variation_of(u)
+    accuracy = _relative(errors.u + moved, variation)
+    scale = _force_scale(_largest(force, active & ~undecided), errors.force_scale)
+    multiplier_accuracy = _relative(errors.force + pressed, scale)
+    return RouteResult(u, active, iterations, accuracy, force, multiplier_accuracy, undecided)
 
 
-def better(first, second):
+def _force_scale(largest_certain, acting):
+    """What errors of forces are relative to: the largest certain force, or what acts at all."""
+    return max(largest_certain, SMALLEST_FORCE_SCALE * acting) if largest_certain else acting
+
+
+def more_accurate(first, second):
     """The better of two answers.
 
     It is the second, which binds where the first is undecided, unless that one knows u and forces
@@ -224,14 +224,14 @@ def better(first, second):
     """
     if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
         return second
-    return min((second, first), key=lambda found: max(found.accuracy, found.multiplier_accuracy))
+    return min((second, first), key=lambda result: max(result.accuracy, result.multiplier_accuracy))
 
 
 def _largest(values, where):
     return float(np.max(np.abs(values), where=where, initial=0.0))
 
 
-def _share(error, size):
+def _relative(error, size):
     if not error:
         return 0.0
     return float(error / size) if size else np.inf

@@ -10,7 +10,7 @@ from signorini.fem.mirror import mirrored
 from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
-from signorini.solvers.route_result import NO_DIGIT, RouteResult, size_of
+from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult, variation_of
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 # Route name -> module and function; imported when used, because importing SciPy costs more than a
@@ -22,16 +22,16 @@ METHODS = {
 }
 
 
-_MANY = (
+_DENSE_CONTACT_UP_TO = (
     1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 )
 # Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
-_FEW = 20_000
-_ASKED = "asked for"
+_DIRECT_UP_TO = 20_000
+_REQUESTED = "asked for"
 # On the estimated error of u where dofs are undecided. Errors of u above 1e-13 and above their
 # estimate were met there alone: four times it at most in the stability suite, three times it on
 # graded cells. With undecided dofs no force was further off than its estimate.
-_MARGIN = 10.0
+_UNDECIDED_MARGIN = 10.0
 _NEARLY_CONSTANT = (
     2.0**-6
 )  # Dirichlet values and obstacle that vary by less of their size are shifted
@@ -84,13 +84,13 @@ def _solved(problem, method, reason, guess):
     scaled = problem.scaled(-exponent)
     if method != "fourier":
         check_symmetric(scaled.A)
-    shifted, constant, (result, method, reason) = _counted(scaled, method, reason, guess)
+    shifted, constant, (result, method, reason) = _solve_shifted(scaled, method, reason, guess)
     u = result.u
     active, c = result.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
     accuracy = _accuracy(result, constant)
-    if not accuracy <= NO_DIGIT:
+    if not accuracy <= USELESS_ACCURACY:
         raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
     status = _status(residual, accuracy, result)
     if status == "failed":
@@ -101,7 +101,7 @@ def _solved(problem, method, reason, guess):
     multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
-        u = _with_constant(problem, deviation, np.ldexp(constant, exponent), active)
+        u = _add_constant(problem, deviation, np.ldexp(constant, exponent), active)
     if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
         raise SolverError(
             "data: the solution exceeds the largest number, 1.8e308; scale the data down"
@@ -124,20 +124,20 @@ def _solved(problem, method, reason, guess):
     )
 
 
-def _counted(problem, method, reason, guess):
+def _solve_shifted(problem, method, reason, guess):
     """The problem counted from a constant, that constant, and the result for it.
 
     Where data do not show that all of the body stays near a constant, far from its obstacle, a
     first solution does.
     """
-    rest = _at_rest(problem)
+    rest = _constant_solution(problem)
     if rest is not None:
         return problem, 0.0, (rest, method, reason)
     constant = _constant(problem, near=[problem.fixed_values, problem.lower])
     shifted = problem.shifted(constant)
     far = _constant(problem, near=[problem.fixed_values])
     try:
-        result = _find(shifted, method, reason, guess)
+        result = _solve_or_fall_back(shifted, method, reason, guess)
         varies = np.ptp(result[0].u) > _NEARLY_CONSTANT * largest(result[0].u)
     except SolverError:
         if constant or not far:
@@ -146,10 +146,10 @@ def _counted(problem, method, reason, guess):
     if constant or varies or not far:
         return shifted, constant, result
     shifted = problem.shifted(far)
-    return shifted, far, _find(shifted, method, reason, None)
+    return shifted, far, _solve_or_fall_back(shifted, method, reason, None)
 
 
-def _at_rest(problem):
+def _constant_solution(problem):
     """The answer where a constant meets every condition exactly, None elsewhere.
 
     A route would find the constant and its own rounding, which has no size to be measured by.
@@ -164,22 +164,22 @@ def _at_rest(problem):
     return RouteResult(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
 
 
-def _find(problem, method, reason, guess):
+def _solve_or_fall_back(problem, method, reason, guess):
     """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
     finds.
     """
     try:
-        return _by_route(problem, method, guess), method, reason
+        return _run_route(problem, method, guess), method, reason
     except SolverError as error:
         larger = not fits(
             problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
         )
-        if method != "multigrid" or reason == _ASKED or larger:
+        if method != "multigrid" or reason == _REQUESTED or larger:
             raise
-        return _by_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
+        return _run_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
 
 
-def _by_route(problem, method, guess):
+def _run_route(problem, method, guess):
     module, function = METHODS[method]
     try:
         return RouteResult(*getattr(importlib.import_module(module), function)(problem, guess))
@@ -188,9 +188,9 @@ def _by_route(problem, method, guess):
 
 
 def _causes(problem):
-    from signorini.solvers.hierarchy import causes
+    from signorini.solvers.conditioning import accuracy_loss_causes
 
-    return causes(problem)
+    return accuracy_loss_causes(problem)
 
 
 def _choose(problem, method):
@@ -203,22 +203,22 @@ def _choose(problem, method):
             raise NotApplicableError(
                 f"solver.method: {method} does not apply, {why_not}; use auto or direct"
             )
-        return method, _ASKED
+        return method, _REQUESTED
     why_not = _why_not("fourier", problem)
     if not why_not:
-        kind = (
+        condition = (
             "equal conditions beside the contact side"
             if problem.contact.size
             else "no contact part: plain Poisson"
         )
-        return "fourier", f"uniform grid, {kind}"
-    if problem.b.size <= _FEW:
+        return "fourier", f"uniform grid, {condition}"
+    if problem.b.size <= _DIRECT_UP_TO:
         return "direct", why_not
-    from signorini.solvers.hierarchy import is_nested, is_regular
+    from signorini.solvers.conditioning import is_nested, is_regular
 
     if is_nested(problem.mesh):
         return "multigrid", f"{why_not}, but refined"
-    if is_regular(problem.mesh) and problem.contact.size > _MANY:
+    if is_regular(problem.mesh) and problem.contact.size > _DENSE_CONTACT_UP_TO:
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
         return "direct", f"{why_not}, and not refined or of stretched cells"
@@ -232,13 +232,13 @@ def _choose(problem, method):
 
 def _why_not(method, problem):
     """Why a route does not apply to a problem, or None; the direct one always does."""
-    room = importlib.import_module(METHODS[method][0])
-    return room.why_not(problem) if hasattr(room, "why_not") else None
+    module = importlib.import_module(METHODS[method][0])
+    return module.why_not(problem) if hasattr(module, "why_not") else None
 
 
 def _status(residual, accuracy, result):
     """That of a solution, with a margin where the contact set is not certain."""
-    margin = _MARGIN if result.undecided.any() else 1.0
+    margin = _UNDECIDED_MARGIN if result.undecided.any() else 1.0
     return status_of(residual, margin * accuracy, result.multiplier_accuracy)
 
 
@@ -249,7 +249,7 @@ def _accuracy(result, constant):
     bit.
     """
     variation, size = (
-        size_of(result.u),
+        variation_of(result.u),
         max(abs(np.min(result.u) + constant), abs(np.max(result.u) + constant)),
     )
     last_bit = float(EPS * size) if result.accuracy or np.ptp(result.u) else 0.0
@@ -257,7 +257,7 @@ def _accuracy(result, constant):
     return float((result.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
 
 
-def _with_constant(problem, deviation, constant, active):
+def _add_constant(problem, deviation, constant, active):
     """u itself, given values taken over as they are; the same array where there is no constant."""
     if not constant:
         return deviation

@@ -98,7 +98,7 @@ class SpectralContact:
         full = np.zeros(self.size)
         full[free] = rhs
         r = np.where(free, full - self.apply(x), 0.0)
-        floor = 2.0 * _EPS * (np.max(np.abs(full)) + self.symbol.max() * np.max(np.abs(x)))
+        rounding_level = 2.0 * _EPS * (np.max(np.abs(full)) + self.symbol.max() * np.max(np.abs(x)))
         best, best_x, stalled = np.inf, x, 0
         z = self._precondition(free, r)
         p, rz = z, r @ z
@@ -108,7 +108,7 @@ class SpectralContact:
                 best, best_x, stalled = size, x, 0
             else:
                 stalled += 1
-            if size <= floor or stalled > _PATIENCE or rz == 0.0:
+            if size <= rounding_level or stalled > _PATIENCE or rz == 0.0:
                 break
             Sp = np.where(free, self.apply(p), 0.0)
             step = rz / (p @ Sp)
@@ -117,10 +117,10 @@ class SpectralContact:
             z = self._precondition(free, r)
             rz, before = r @ z, rz
             p = z + (rz / before) * p
-        if best > 1e6 * floor:
+        if best > 1e6 * rounding_level:
             raise SolverError(
                 f"contact line: conjugate gradients stopped at residual {best:.2e}, "
-                f"above {floor:.2e}"
+                f"above {rounding_level:.2e}"
             )
         self._last = best_x
         return best_x[free]

@@ -78,13 +78,13 @@ def vertex_sines(n):
 def midpoint_cosines(n):
     """DCT-II on n cell midpoints: zero flux at both ends."""
     k = np.arange(n)
-    turn = np.exp(-0.5j * np.pi * k / n)
+    phase = np.exp(-0.5j * np.pi * k / n)
 
     def forward(x):
-        return (np.fft.rfft(np.concatenate([x, x[:, ::-1]], axis=1))[:, :n] * turn).real
+        return (np.fft.rfft(np.concatenate([x, x[:, ::-1]], axis=1))[:, :n] * phase).real
 
     def backward(c):
-        padded = np.concatenate([c / turn, np.zeros((c.shape[0], 1))], axis=1)
+        padded = np.concatenate([c / phase, np.zeros((c.shape[0], 1))], axis=1)
         return np.fft.irfft(padded, 2 * n)[:, :n]
 
     return Basis(*_by_rows(forward, backward, "dct", 2), _second_difference(k, n), np.ones(n))
@@ -93,13 +93,13 @@ def midpoint_cosines(n):
 def midpoint_sines(n):
     """DST-II on n cell midpoints: zero values at both ends, half a cell outside."""
     k = np.arange(1, n + 1)
-    turn = 1j * np.exp(-0.5j * np.pi * k / n)
+    phase = 1j * np.exp(-0.5j * np.pi * k / n)
 
     def forward(x):
-        return (np.fft.rfft(np.concatenate([x, -x[:, ::-1]], axis=1))[:, 1:] * turn).real
+        return (np.fft.rfft(np.concatenate([x, -x[:, ::-1]], axis=1))[:, 1:] * phase).real
 
     def backward(c):
-        padded = np.concatenate([np.zeros((c.shape[0], 1)), c / turn], axis=1)
+        padded = np.concatenate([np.zeros((c.shape[0], 1)), c / phase], axis=1)
         return np.fft.irfft(padded, 2 * n)[:, :n]
 
     return Basis(*_by_rows(forward, backward, "dst", 2), _second_difference(k, n), np.ones(n))
@@ -109,7 +109,7 @@ def _second_difference(k, n):
     return 4.0 * np.sin(0.5 * np.pi * k / n) ** 2
 
 
-def _by_rows(forward, backward, name, kind):
+def _by_rows(forward, backward, name, dct_type):
     """Let transforms of (m, size) arrays take (size,) too, and long arrays a block of rows at a
     time.
     """
@@ -119,11 +119,11 @@ def _by_rows(forward, backward, name, kind):
             rows = np.atleast_2d(x)
             result = np.empty_like(rows) if out is None else out
             large = rows.size >= _LARGE
-            at_once = _scipy(scipy_name, kind) if large else transform
+            transform_chunk = _scipy(scipy_name, dct_type) if large else transform
             step = max((_LARGE // 8 if large else _VALUES_AT_ONCE) // rows.shape[1], 1)
             for start in range(0, rows.shape[0], step):
                 block = slice(start, start + step)
-                result[block] = at_once(rows[block])
+                result[block] = transform_chunk(rows[block])
             return result.reshape(x.shape)
 
         return transformed
@@ -131,9 +131,9 @@ def _by_rows(forward, backward, name, kind):
     return blockwise(forward, name), blockwise(backward, f"i{name}")
 
 
-def _scipy(name, kind):
+def _scipy(name, dct_type):
     import scipy.fft
 
-    asked = os.environ.get("OMP_NUM_THREADS", "").partition(",")[0]
-    workers = int(asked) if asked.isdecimal() and int(asked) else os.cpu_count()
-    return lambda rows: getattr(scipy.fft, name)(rows, kind, workers=workers)
+    requested = os.environ.get("OMP_NUM_THREADS", "").partition(",")[0]
+    workers = int(requested) if requested.isdecimal() and int(requested) else os.cpu_count()
+    return lambda rows: getattr(scipy.fft, name)(rows, dct_type, workers=workers)

@@ -12,7 +12,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
-from signorini.judge.contact_set import Body
+from signorini.judge.contact_set import CondensedProblem
 from signorini.judge.elimination import EXTENDED
 from signorini.judge.judgement import DOUBLE, EPS, SAFETY, Judgement, largest, ratio
 
@@ -53,14 +53,14 @@ def judge(problem, solution=None):
         image = mirrored(problem)
         start = None if solution is None else solution.mirrored(image)
         return judge(image, start).mirrored()
-    return _Search(problem).run(solution)
+    return _Refinement(problem).run(solution)
 
 
-class _Search:
+class _Refinement:
     """The state of a search: u as head + tail, shifted, and the contact set."""
 
     def __init__(self, problem):
-        self.problem, self.body = problem, Body(problem)
+        self.problem, self.condensed = problem, CondensedProblem(problem)
         data = np.concatenate([problem.fixed_values, problem.lower])
         self.shift = data[:1].astype(EXTENDED).sum()
         self.fixed_values = _shifted(problem.fixed_values, self.shift)
@@ -72,24 +72,24 @@ class _Search:
 
     def run(self, solution):
         """Refine until the contact set stays and the steps drown, or shrink no more."""
-        active = self._start(solution)
+        active = self._initial_guess(solution)
         last = np.inf
         for _ in range(_MOST_STEPS):
             loads, noise = self._loads()
-            found = self.body.respond(loads, noise, self._gap(), active)
-            same = np.array_equal(found.active, active)
-            active = found.active
-            self._move(found)
-            step, drowned = largest(found.step), largest(found.noise)
-            settled = same and not found.wrong.any()
-            if settled and (step <= drowned or 2 * step > last):
-                return self._verdict(found)
+            response = self.condensed.respond(loads, noise, self._gap(), active)
+            same = np.array_equal(response.active, active)
+            active = response.active
+            self._move(response)
+            step, noise_level = largest(response.step), largest(response.noise)
+            converged = same and not response.wrong.any()
+            if converged and (step <= noise_level or 2 * step > last):
+                return self._judgement(response)
             last = step if same else np.inf
         raise SolverError(
             f"extended precision: no contact set in {_MOST_STEPS} steps, or none but for round-off"
         )
 
-    def _start(self, solution):
+    def _initial_guess(self, solution):
         fixed, contact = self.problem.fixed, self.problem.contact
         if solution is None:
             active = np.ones(contact.size, dtype=bool)
@@ -111,7 +111,7 @@ class _Search:
 
     def _loads(self):
         """b - A u, and samples of its round-off, shape (ndof, samples)."""
-        force, terms = self.body.forces(self.head, self.tail)
+        force, terms = self.condensed.forces(self.head, self.tail)
         rounding = EPS * (terms + np.abs(self.b))
         return self.b - force, rounding[:, None] * self.signs
 
@@ -120,44 +120,44 @@ class _Search:
         head, tail = self.lower
         return (self.head[contact] - head) + (self.tail[contact] - tail)
 
-    def _move(self, found):
+    def _move(self, response):
         """Add the step; what the sum rounds off goes to the tail (Knuth's exact sum)."""
-        moved = self.tail + found.step
+        moved = self.tail + response.step
         total = self.head + moved
         part = total - self.head
         self.tail = (self.head - (total - part)) + (moved - part)
         self.head = total
-        self._close(found.active)
+        self._close(response.active)
 
-    def _verdict(self, found):
+    def _judgement(self, response):
         u = self.head + self.tail
         size = largest(u + self.shift)
         variation = u.max() - u.min()
         if variation <= DOUBLE * size:
             variation = size  # u is constant
         stored = DOUBLE * ratio(size, variation)
-        noise = largest(found.noise)
-        _, terms = self.body.forces(self.head, self.tail)
-        acting = (terms + np.abs(self.b))[self.problem.contact]
+        noise = largest(response.noise)
+        _, terms = self.condensed.forces(self.head, self.tail)
+        force_scale = (terms + np.abs(self.b))[self.problem.contact]
         return Judgement(
             shift=self.shift,
             displacement=u,
-            multiplier=np.where(found.active, np.maximum(found.force, 0), 0),
-            active=found.active,
-            margin=_margin(found),
+            multiplier=np.where(response.active, np.maximum(response.force, 0), 0),
+            active=response.active,
+            margin=_margin(response),
             variation=variation,
-            acting=largest(acting),
-            error=ratio(SAFETY * noise + largest(found.step), variation),
-            force_error=largest(found.force_error),
+            force_scale=largest(force_scale),
+            error=ratio(SAFETY * noise + largest(response.step), variation),
+            force_error=largest(response.force_error),
             limit=max(DOUBLE / EPS * ratio(noise, variation), stored),
             stored=stored,
         )
 
 
-def _margin(found):
+def _margin(response):
     """Gap or force over its error; without an error, infinite where it is positive, or else 0."""
-    value = np.where(found.active, found.force, found.gap)
-    bound = np.where(found.active, found.force_error, found.gap_error)
+    value = np.where(response.active, response.force, response.gap)
+    bound = np.where(response.active, response.force_error, response.gap_error)
     without = np.where(value > 0, EXTENDED(np.inf), EXTENDED(0))
     return np.divide(value, bound, out=without, where=bound > 0)
 

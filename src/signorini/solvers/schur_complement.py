@@ -11,16 +11,16 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.elements import find_element
 from signorini.fem.residual import EPS
-from signorini.solvers.hierarchy import causes
+from signorini.solvers.conditioning import accuracy_loss_causes
 from signorini.solvers.solution import largest
 from signorini.work import count
 
 _LEAF = 8
 _SINGULAR = 1e-13  # of its diagonal entry: a pivot so small may show a loose part of the body
-_MISSED = 4.0 * EPS
+_RESIDUAL_TOLERANCE = 4.0 * EPS
 
 
-class Condensed:
+class SchurComplement:
     """A problem's stiffness matrix, factorised once, and its Schur complement on the contact dofs.
 
     Attributes
@@ -58,14 +58,14 @@ class Condensed:
                 options={"SymmetricMode": True},
             )
         except RuntimeError as error:
-            raise SolverError(why_singular(problem)) from error
+            raise SolverError(singular_message(problem)) from error
         pivots = self.factors.U.diagonal()
         if np.any(self.factors.perm_r != np.arange(A.shape[0])) or np.any(pivots <= 0.0):
-            raise SolverError(why_singular(problem))
+            raise SolverError(singular_message(problem))
         if np.any(pivots <= _SINGULAR * (A.diagonal() + shift)) and loose_part(problem) is not None:
-            raise SolverError(why_singular(problem))
-        self.S_sprung = self._trailing_block()
-        self.S = self.S_sprung - np.diag(shift[A.shape[0] - self.count :])
+            raise SolverError(singular_message(problem))
+        self.S_with_springs = self._trailing_block()
+        self.S = self.S_with_springs - np.diag(shift[A.shape[0] - self.count :])
 
     def _trailing_block(self):
         if not self.count:
@@ -79,7 +79,7 @@ class Condensed:
         rhs = load[self.order]
         split = len(rhs) - self.count
         rhs[split:] = 0.0
-        return load[self.contact] + self.S_sprung @ self.factors.solve(rhs)[split:]
+        return load[self.contact] + self.S_with_springs @ self.factors.solve(rhs)[split:]
 
     def back_substitute(self, load, w, condensed_load=None):
         """The free dofs in equilibrium, with the contact dofs given; zero on the fixed ones.
@@ -101,12 +101,12 @@ class Condensed:
         condensed_load = self.condense(load) if condensed_load is None else condensed_load
         rhs = load[self.order]
         split = len(rhs) - self.count
-        rhs[split:] = self.S_sprung @ w + (load[self.contact] - condensed_load)
+        rhs[split:] = self.S_with_springs @ w + (load[self.contact] - condensed_load)
         x = self.factors.solve(rhs)
-        missed = w - x[split:]
-        if largest(missed) > _MISSED * largest(w):
+        error = w - x[split:]
+        if largest(error) > _RESIDUAL_TOLERANCE * largest(w):
             # An ill-conditioned S misses w in its last digits, which a stiff neighbour would feel.
-            rhs[:split], rhs[split:] = 0.0, self.S_sprung @ missed
+            rhs[:split], rhs[split:] = 0.0, self.S_with_springs @ error
             x += self.factors.solve(rhs)
         u = np.zeros((self.size, *load.shape[1:]))
         u[self.order] = x
@@ -124,11 +124,12 @@ def _springs(problem):
     return 2.0 ** np.round(np.log2(stiffest[problem.contact]))
 
 
-def why_singular(problem):
+def singular_message(problem):
     """Why factors show a matrix that is not positive: a loose part, or what costs all digits."""
     at = loose_part(problem)
     if at is None:
-        return f"domain: no digit of the solution survives rounding: {causes(problem)}"
+        causes = accuracy_loss_causes(problem)
+        return f"domain: no digit of the solution survives rounding: {causes}"
     return (
         f"singular stiffness matrix: a part of the body is loose, "
         f"that with ({at[0]:.6g}, {at[1]:.6g}); "

@@ -8,17 +8,23 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
-from signorini.solvers.contact import Exchange
+from signorini.solvers.conjugate_gradients import ConjugateGradients, approximate_solution
+from signorini.solvers.contact import PivotingRule
 from signorini.solvers.cycle import preconditioner
-from signorini.solvers.descent import Descent, solved
 from signorini.solvers.dot import dot
-from signorini.solvers.route_result import SAFETY, Errors, Released, bound_of, proved
+from signorini.solvers.route_result import (
+    SAFETY,
+    ErrorEstimates,
+    ReleaseEffect,
+    assess,
+    error_bounds,
+)
 from signorini.solvers.solution import largest
 from signorini.work import count
 
-_MAX_STEPS, _DESCENTS = 300, 30
+_MAX_STEPS, _MAX_CORRECTIONS = 300, 30
 _ROUGH = 1e-12  # error, of what u varies, to which plain products do
-_STAYS = (
+_ACCEPTED_STAGNATION = (
     1e-11  # estimated error of u that is told, and not refused, where no new residual lowers it
 )
 _SHRUNK = 8.0  # times what u varies now: if it varied by more, its error was measured by too much
@@ -29,20 +35,20 @@ _NONE = np.zeros(0)
 _log = logging.getLogger(__name__)
 
 
-class Search:
+class LevelSolver:
     """The search for a level's solution: u and contact set as they stand, and what the signs are
     held against.
     """
 
     def __init__(self, levels, obstacle, u, active):
         self.levels, self.obstacle, self.u, self.active = levels, obstacle, u, active
-        self.rule, self.steps, self.least = Exchange(), 0, 1.0
+        self.rule, self.steps, self.smallest_eigenvalue = PivotingRule(), 0, 1.0
         self.A, c = levels[0].A, obstacle.contact
         self.rows = self.A[c]
         self.sizes = abs(self.rows)
         u[obstacle.fixed] = obstacle.fixed_values
 
-    def acting(self):
+    def force_scale(self):
         """The largest force that acts on a contact dof: the sum of the sizes of its load and its
         fluxes.
         """
@@ -50,25 +56,26 @@ class Search:
         fluxes = residual_and_fluxes(self.rows, load, self.u, self.obstacle.contact, _NONE)[1]
         return np.max(fluxes + np.abs(load), initial=0.0)
 
-    def found(self, errors):
+    def result(self, errors):
         """The answer, with its errors."""
         unsure = self.active & (self.force <= errors.forces)
-        released = self._released(unsure) if unsure.any() else None
-        return proved(self.u, self.active, self.steps, self.gap, self.force, errors, released)
+        release_effect = self._release_effect(unsure) if unsure.any() else None
+        return assess(self.u, self.active, self.steps, self.gap, self.force, errors, release_effect)
 
-    def _released(self, dofs):
+    def _release_effect(self, dofs):
         """What rounding does with some contact dofs let go; None where nothing else holds."""
-        c, held = self.obstacle.contact, self.obstacle.held(self.active & ~dofs)
-        if not held.any():
+        c, constrained = self.obstacle.contact, self.obstacle.constrained(self.active & ~dofs)
+        if not constrained.any():
             return None
         rounding = rounding_of(self.obstacle.b, self.fluxes)
-        sample = np.copysign(rounding, np.random.default_rng(0).random(held.size) - 0.5)
-        cycle = preconditioner(self.levels, held)
-        x = solved(self.levels[0], cycle, np.where(held, 0.0, sample), _ESTIMATE)
-        forces = np.where(held[c], np.abs(self.rows @ x - sample[c]), 0.0)
-        return Released(largest(x), SAFETY * np.abs(x[c]), SAFETY * forces)
+        sample = np.copysign(rounding, np.random.default_rng(0).random(constrained.size) - 0.5)
+        cycle = preconditioner(self.levels, constrained)
+        load = np.where(constrained, 0.0, sample)
+        x = approximate_solution(self.levels[0], cycle, load, _ESTIMATE)
+        forces = np.where(constrained[c], np.abs(self.rows @ x - sample[c]), 0.0)
+        return ReleaseEffect(largest(x), SAFETY * np.abs(x[c]), SAFETY * forces)
 
-    def run(self, tolerance):
+    def solve(self, tolerance):
         """Improve u and contact set until the error is `tolerance` of what u varies, or round-off;
         no sign is wrong.
         """
@@ -106,35 +113,35 @@ class Search:
         if not (obstacle.fixed.size or active.any()):
             active[np.argmin(obstacle.b[obstacle.contact])] = True
         u[obstacle.contact[active]] = obstacle.lower[active]
-        self.held = obstacle.held(active)
-        self.cycle = preconditioner(self.levels, self.held)
+        self.constrained = obstacle.constrained(active)
+        self.cycle = preconditioner(self.levels, self.constrained)
         before = np.inf
-        for _ in range(_DESCENTS):
-            descent = self._descent(tolerance, exact=before < np.inf)
-            wrong = descent.run()
-            self.gap = (u[obstacle.contact] - obstacle.lower) + descent.d[
-                obstacle.contact
-            ]  # before u rounds it off
-            u += descent.d
-            share = descent.error / (np.ptp(u) or 1.0)
+        for _ in range(_MAX_CORRECTIONS):
+            iteration = self._next_iteration(tolerance, exact=before < np.inf)
+            wrong = iteration.solve()
+            # The correction goes to the gap before u rounds it off.
+            self.gap = (u[obstacle.contact] - obstacle.lower) + iteration.d[obstacle.contact]
+            u += iteration.d
+            share = iteration.error / (np.ptp(u) or 1.0)
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
-            self.force = np.where(active, -descent.r[obstacle.contact], 0.0)
-            stays = descent.error > 0.5 * before
-            shrunk = descent.size > _SHRUNK * np.ptp(u) and (np.ptp(u) or before == np.inf)
-            if wrong.any() or (descent.converged and descent.tolerance == tolerance and not shrunk):
+            self.force = np.where(active, -iteration.r[obstacle.contact], 0.0)
+            stagnates = iteration.error > 0.5 * before
+            shrunk = iteration.size > _SHRUNK * np.ptp(u) and (np.ptp(u) or before == np.inf)
+            converged = iteration.converged and iteration.tolerance == tolerance and not shrunk
+            if wrong.any() or converged:
                 break
-            if stays and descent.error <= _STAYS * np.ptp(u):
+            if stagnates and iteration.error <= _ACCEPTED_STAGNATION * np.ptp(u):
                 break
-            if stays:
+            if stagnates:
                 raise SolverError(
                     f"multigrid: the estimated error stays at {share:.1e} of what u varies; "
                     "set solver.method to direct, or to auto"
                 )
-            before = descent.error
-        self.left, self.left_force = descent.error, descent.force_error
+            before = iteration.error
+        self.remaining, self.remaining_force = iteration.error, iteration.force_error
         return wrong
 
-    def _descent(self, tolerance, exact):
+    def _next_iteration(self, tolerance, exact):
         """The next one; its residual is taken by differences where plain products would no longer
         do.
         """
@@ -144,9 +151,9 @@ class Search:
             rough = max(
                 _ROUGH, 8.0 * EPS * np.sqrt(self.u.size)
             )  # what rounding of the products leaves of u
-            return Descent(self, b - self.A @ self.u, tolerance or rough)
+            return ConjugateGradients(self, b - self.A @ self.u, tolerance or rough)
         r, self.fluxes = residual_and_fluxes(self.A, b, self.u, sums=level.sums)
-        return Descent(self, r, 0.0)
+        return ConjugateGradients(self, r, 0.0)
 
     def errors(self):
         """Estimated errors.
@@ -158,50 +165,57 @@ class Search:
         rounding = rounding_of(b, self.fluxes)
         loads = rounding, np.copysign(rounding, np.random.default_rng(0).random(b.size) - 0.5)
         if self.levels[0].robust or self.levels[0].P is None:
-            pushed, pressed, moved, forced = self._responses(*loads)
+            responses = self._responses(*loads)
         else:
-            pushed, pressed, moved, forced = self._coarse_responses(*loads)
-        local = float(np.max(rounding / self.levels[0].diagonal, where=~self.held, initial=0.0))
-        gaps = pushed + self.left
-        error = SAFETY * (moved + local) + self.left
-        stiffness = self.levels[0].diagonal[c]
-        together = np.full(c.shape, SAFETY * np.sqrt(dot(rounding, rounding)))
-        force = SAFETY * forced + self.left_force
-        forces = np.where(self.active, pressed, 0.0) + self.left_force
-        return Errors(error, force, gaps, forces, together, stiffness, self.acting())
+            responses = self._coarse_responses(*loads)
+        gap_bounds, force_bounds, largest_move, largest_force = responses
+        diagonal = self.levels[0].diagonal
+        local = float(np.max(rounding / diagonal, where=~self.constrained, initial=0.0))
+        return ErrorEstimates(
+            u=SAFETY * (largest_move + local) + self.remaining,
+            force=SAFETY * largest_force + self.remaining_force,
+            gaps=gap_bounds + self.remaining,
+            forces=np.where(self.active, force_bounds, 0.0) + self.remaining_force,
+            loads=np.full(c.shape, SAFETY * np.sqrt(dot(rounding, rounding))),
+            stiffness=diagonal[c],
+            force_scale=self.force_scale(),
+        )
 
     def _responses(self, load, sample):
         """The gaps and forces that a load makes, each (nc,); the greatest move and force that
         another one makes.
         """
-        c, found = self.obstacle.contact, []
-        for rounding in (load, sample):
-            x = solved(self.levels[0], self.cycle, np.where(self.held, 0.0, rounding), _RESPONSE)
-            found += [x, np.where(self.active, self.rows @ x - rounding[c], 0.0)]
-        pushed, pressed, moved, forced = found
+        c = self.obstacle.contact
+        one_way, forces_one_way = self._response(load)
+        moved, forces = self._response(sample)
         return (
-            bound_of(pushed[c], moved[None, c]),
-            bound_of(pressed, forced[None]),
+            error_bounds(one_way[c], moved[None, c]),
+            error_bounds(forces_one_way, forces[None]),
             largest(moved),
-            largest(forced),
+            largest(forces),
         )
+
+    def _response(self, load):
+        """What a load does with the contact set fixed: the change of u, and the contact forces."""
+        free_load = np.where(self.constrained, 0.0, load)
+        x = approximate_solution(self.levels[0], self.cycle, free_load, _RESPONSE)
+        forces = self.rows @ x - load[self.obstacle.contact]
+        return x, np.where(self.active, forces, 0.0)
 
     def _coarse_responses(self, load, sample):
         """The same, worked out on the next coarser level and smoothed: enough on cells that are not
         stretched.
         """
         c, level = self.obstacle.contact, self.levels[0]
-        held = level.coarse_mask(self.held)
-        cycle = preconditioner(self.levels[1:], held)
-        coarse = solved(self.levels[1], cycle, np.where(held, 0.0, level.R @ load), _ESTIMATE)
-        pushed = np.where(self.held, 0.0, level.P @ coarse)
-        self.cycle.sweep(0, pushed, load, -1)
-        pressed = self.sizes @ np.abs(pushed) + load[c]
-        moved = largest(cycle(np.where(held, 0.0, level.R @ sample))) / self.least
-        share = min(moved / (largest(pushed) or 1.0), 1.0)
-        return (
-            np.abs(pushed[c]),
-            pressed,
-            moved,
-            share * float(np.max(pressed, where=self.active, initial=0.0)),
-        )
+        constrained = level.coarse_mask(self.constrained)
+        cycle = preconditioner(self.levels[1:], constrained)
+        coarse_load = np.where(constrained, 0.0, level.R @ load)
+        coarse = approximate_solution(self.levels[1], cycle, coarse_load, _ESTIMATE)
+        one_way = np.where(self.constrained, 0.0, level.P @ coarse)
+        self.cycle.sweep(0, one_way, load, -1)
+        force_bounds = self.sizes @ np.abs(one_way) + load[c]
+        coarse_sample = np.where(constrained, 0.0, level.R @ sample)
+        largest_move = largest(cycle(coarse_sample)) / self.smallest_eigenvalue
+        share = min(largest_move / (largest(one_way) or 1.0), 1.0)
+        largest_force = share * float(np.max(force_bounds, where=self.active, initial=0.0))
+        return np.abs(one_way[c]), force_bounds, largest_move, largest_force

@@ -1,0 +1,39 @@
+"""What in a problem costs digits or slows multigrid: stretched cells, jumps of the coefficient."""
+
+# Cells so many times as long as high need more steps by levels that know only the mesh than by
+# algebraic ones; measured.
+STRETCHED = 8.0
+# Of the coefficient within a triangle of a coarser mesh, which that mesh then cannot follow.
+JUMP = 30.0
+
+
+def has_jumps(coefficient):
+    """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot
+    follow it.
+    """
+    return coefficient is not None and bool(coefficient.max() > JUMP * coefficient.min())
+
+
+def is_regular(mesh):
+    """Whether no cell of a mesh is stretched."""
+    return mesh.stretch <= STRETCHED
+
+
+def is_nested(mesh):
+    """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell
+    is stretched.
+    """
+    return mesh.coarser() is not None and is_regular(mesh)
+
+
+def accuracy_loss_causes(problem):
+    """What in a problem costs digits: cell shapes, the coefficient; and the remedy; a message."""
+    reasons = []
+    if problem.mesh.stretch > STRETCHED:
+        reasons.append(
+            f"there are cells {problem.mesh.stretch:.2g} times as long as high; stretch cells less"
+        )
+    if has_jumps(problem.coefficient):
+        contrast = problem.coefficient.max() / problem.coefficient.min()
+        reasons.append(f"the coefficient varies by {contrast:.1g}; let it vary less")
+    return ", and ".join(reasons) or "look for data of very different sizes"

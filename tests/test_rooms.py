@@ -9,7 +9,7 @@ PACKAGE = Path(__file__).parents[1] / "src/signorini"
 # From the ground floor up; docs/architecture.md says what each is for.
 FLOORS = (
     *("exceptions", "wording", "work", "chunks", "memory", "storage"),
-    *("formula", "mesh", "fem", "exact", "solvers", "errors", "scene"),
+    *("formula", "mesh", "fem", "exact", "solvers", "errors", "certificate", "scene"),
     *("judge", "generated", "rivals", "open_choices", "report", "publication", "figures", "api"),
     *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability", "studies.theory"),
     *("commands", "__main__"),

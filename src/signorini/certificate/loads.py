@@ -1,0 +1,124 @@
+"""What a load leaves on each triangle: its moments, and what no affine function has of it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.chunks import chunk_slices
+from signorini.exceptions import SceneError
+from signorini.fem.quadrature import triangle_rule
+from signorini.mesh.grid import Grid
+from signorini.mesh.triangulation import triangle_areas
+
+_POINTS_AT_ONCE = 2**16
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleLoads:
+    """The load f on nt triangles, by one quadrature for all that depends on it.
+
+    Attributes
+    ----------
+    moments : ndarray, shape (3, nt)
+        int f lambda_i over each triangle, lambda_i its barycentric coordinates.
+    remainder : ndarray, shape (nt,)
+        int (f - f_1)^2, where f_1 is the affine function with the same moments.
+    """
+
+    moments: np.ndarray
+    remainder: np.ndarray
+
+
+def triangle_loads(mesh, f, rule):
+    """The `TriangleLoads` of a force.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    f : Formula or Function
+    rule : str or int
+        See `quadrature.triangle_rule`: that of the load vector, so that the numbers are the same.
+
+    Returns
+    -------
+    TriangleLoads
+    """
+    count = mesh.number_of_triangles
+    areas = mesh.area
+    moments, remainder = np.zeros((3, count)), np.zeros(count)
+    if f.constant is not None:
+        moments += f.constant * areas / 3.0
+        return TriangleLoads(moments, remainder)
+    points, weights = triangle_rule(rule, count)
+    for cells in chunk_slices(count, max(_POINTS_AT_ONCE // weights.size, 1)):
+        values = f(*(points.T @ _corners(mesh, cells)))
+        own = areas if np.isscalar(areas) else areas[cells]
+        mean_moments = (points * weights) @ values
+        moments[:, cells] = own * mean_moments
+        affine = 12.0 * mean_moments - 3.0 * mean_moments.sum(axis=0)
+        values -= points.T @ affine
+        remainder[cells] = own * (weights @ np.square(values, out=values))
+    return TriangleLoads(moments, remainder)
+
+
+_WORST = 4  # triangles that are looked at closer
+# Around a point where f is like r^-p, int f^2 over a triangle of half the size is 2^(2p - 2) times
+# as much: from p = 1 on, where f is not square integrable, no less.
+_HALVINGS = 24
+_STAYS = 0.3
+
+
+def check_square_integrable(mesh, f, loads):
+    """Refuse a force whose square has as large an integral over a triangle as over its quarters.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    f : Formula or Function
+    loads : TriangleLoads
+        Where it is least affine it is looked at.
+
+    Raises
+    ------
+    SceneError
+        Naming the triangle.
+    """
+    if f.constant is not None:
+        return
+    worst = np.argsort(loads.remainder)[::-1][:_WORST]
+    for cell in worst[loads.remainder[worst] > 0.0]:
+        corners = _corners(mesh, slice(cell, cell + 1))
+        before = _square(f, corners)[0]
+        for _ in range(_HALVINGS):
+            corners = _quarters(corners)
+            squares = _square(f, corners)
+            most = int(np.argmax(squares))
+            corners = corners[:, :, most : most + 1]
+        if squares[most] > _STAYS * before:
+            x, y = corners.mean(axis=1)[:, 0]
+            raise SceneError(
+                f"data.f: is not square integrable at ({x:.6g}, {y:.6g}), as a certificate needs "
+                "it; smooth it there"
+            )
+
+
+def _square(f, corners):
+    """int f^2 over triangles (2, 3, m) by the rule of degree 5, shape (m,)."""
+    points, weights = triangle_rule(5)
+    return triangle_areas(corners) * (weights @ f(*(points.T @ corners)) ** 2)
+
+
+def _quarters(corners):
+    """The four triangles between the corners of one and its midpoints, (2, 3, 4)."""
+    a, b, c = corners.transpose(1, 0, 2)
+    ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(part, axis=1) for part in parts], axis=2)
+
+
+def _corners(mesh, cells):
+    """Corners of some triangles, (2, 3, m)."""
+    if not isinstance(mesh, Grid):
+        return mesh.corners(cells)
+    numbers = np.arange(*cells.indices(mesh.number_of_triangles))
+    return mesh.points(mesh.triangles(numbers).t.ravel()).reshape(2, 3, -1)

@@ -49,6 +49,24 @@ rule outputs:
         " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
+# Active-set steps beside those of a plain active set; built where its file is asked for.
+rule steps:
+    input:
+        library("steps"),
+        scene=ancient(scene_file),
+    output:
+        "results/{scene}/steps.csv",
+    log:
+        "results/{scene}/logs/steps.log",
+    params:
+        content=content("steps"),
+        asked=parts("elements", "levels"),
+        statement=statement,
+        method=method,
+    shell:
+        "python3 -m signorini steps {input.scene:q} -o {output:q} 2>&1 | tee {log:q}"
+
+
 rule rates:
     input:
         library("rates"),

@@ -21,6 +21,7 @@ CATALOGUE = {
         "errors": "measure errors against a scene's reference or exact solution",
         "rates": "fit slopes of the errors",
         "outputs": "compute the quantities that a scene asks for",
+        "steps": "count active-set steps, beside a plain active set",
         "expect": "compare slopes and errors with what a scene expects",
         "show": "say what is in a result file",
     },

@@ -1,4 +1,4 @@
-"""Bring what is generated of README.md and config/README.md up to date, or check that it is.
+"""Bring what is generated of README.md, config/README.md and docs up to date, or check that it is.
 
     python docs/update_readme.py [--check]
 
@@ -16,7 +16,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
 
-from keys import key_list  # noqa: E402 (the path above must come first)
+import scene_pages  # noqa: E402 (the path above must come first)
+from keys import key_list  # noqa: E402
 
 from signorini.exact import FAMILIES  # noqa: E402
 from signorini.scene.strict_yaml import load_yaml  # noqa: E402
@@ -164,7 +165,11 @@ def main():
             README: filled(README, results() | measured),
             CONFIG_README: filled(CONFIG_README, keys()),
         }
+        wanted |= {page: filled(page, texts) for page, texts in scene_pages.blocks().items()}
         wanted |= {PICTURES / figure.name: figure.read_bytes() for figure in FIGURES}
+        wanted |= {
+            PICTURES / name: figure.read_bytes() for name, figure in scene_pages.PICTURES.items()
+        }
     except FileNotFoundError as error:
         sys.exit(f"error: {error.filename} is missing; run `make readme`")
     stale = [
@@ -178,11 +183,7 @@ def main():
     PICTURES.mkdir(exist_ok=True)
     for path in stale:
         path.write_bytes(wanted[path])
-    print(
-        f"updated: {names}"
-        if stale
-        else "README.md, config/README.md and docs/pictures: up to date"
-    )
+    print(f"updated: {names}" if stale else "README.md, config/README.md and docs: up to date")
 
 
 if __name__ == "__main__":

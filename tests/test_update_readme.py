@@ -1,6 +1,7 @@
 """docs/update_readme.py: durations in README.md are those measured, within a factor of two."""
 
 import importlib.util
+import re
 import sys
 from pathlib import Path
 
@@ -61,3 +62,36 @@ def test_a_measurement_is_written_and_a_check_lets_noise_pass_but_not_a_factor_o
         assert update.durations_block(told, check=True) != told
     measured(update, 10, 240, 60)
     assert update.told(update.durations_block("no duration", check=True)) == [10, 240, 60]
+
+
+def test_pages_of_scenes_have_a_place_for_every_block(update):
+    pages = update.scene_pages
+    names = {
+        pages.APPLICATIONS: {f"outputs of {name}" for name in pages.PRACTICE},
+        pages.MANY_PAPERS: {"rates", "steps"},
+    }
+    for page, expected in names.items():
+        found = re.findall(r"<!-- (.*) -->", page.read_text(encoding="utf-8"))
+        assert {name for name in found if not name.startswith("end of ")} == expected
+        assert all(update.block(page, name).startswith("| ") for name in expected)
+
+
+def test_a_block_of_outputs_has_a_column_for_each_quantity(update, monkeypatch, tmp_path):
+    rows = "P1,4,0.25,paint_length,1.23456789,cm\nP1,4,0.25,spot,,\nCR,4,0.25,paint_length,1,cm\n"
+    (tmp_path / "mine").mkdir()
+    table = tmp_path / "mine/outputs.csv"
+    table.write_text(f"element,n,h,name,value,unit\n{rows}CR,4,0.25,spot,2,\n", encoding="utf-8")
+    monkeypatch.setattr(update.scene_pages, "RESULTS", tmp_path)
+    assert update.scene_pages.outputs("mine").splitlines() == [
+        "| element | n | paint length [cm] | spot |",
+        "| :--- | ---: | ---: | ---: |",
+        "| P1 | 4 | 1.2346 | none |",
+        "| CR | 4 | 1 | 2 |",
+    ]
+
+
+def test_every_scene_of_a_page_ships(update):
+    pages, scenes = update.scene_pages, update.ROOT / "config/scenes"
+    for name in (*pages.PRACTICE, *pages.PUBLISHED):
+        assert (scenes / f"{name}.yaml").is_file()
+    assert set(pages.COUNTED) <= set(pages.PUBLISHED)

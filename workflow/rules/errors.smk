@@ -49,7 +49,7 @@ rule outputs:
         " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
 
 
-# Active-set steps beside those of a plain active set; built where its file is asked for.
+# Active-set steps beside those of a plain active set.
 rule steps:
     input:
         library("steps"),

@@ -15,7 +15,7 @@ def scene_output(name):
     """What one scene asks for; what it does not ask for never enters the job graph."""
     asked = scene(name)
     outputs = asked.document["outputs"]
-    files = [f"{output}.csv" for output in ("errors", "rates") if output in outputs]
+    files = [f"{output}.csv" for output in ("errors", "rates", "steps") if output in outputs]
     files += [f"{names_of(asked.document)[TABLE]}.tex"] if "table" in outputs else []
     files += ["outputs.csv"] if asked.document["quantities"] else []
     files += ["expect.txt"] if "expect" in asked.document else []

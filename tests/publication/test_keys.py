@@ -18,6 +18,8 @@ SCENES = {
     .replace("left: neumann, right: neumann", "left: dirichlet, right: dirichlet")
     .replace("data: {f: 2*pi*sin(2*pi*x)}\n", "")
     .replace("[l2, h1]", "[h1, energy, trace_l2, critical_points]"),
+    "quantities": SCENE.removesuffix("publication:\n")
+    + "quantities: {part: {kind: contact_length}, force: {kind: flux}}\n",
 }
 
 
@@ -39,6 +41,8 @@ def built(request, tmp_path_factory):
     for element, file in zip(scene.elements, solutions, strict=True):
         run("solve", path, "--element", element, "--n", 4, "-o", file)
     run("contact-line", folder / "mesh.npz", *solutions, "-o", folder / "contact_line.csv")
+    if scene.document["quantities"]:
+        run("outputs", path, "-o", folder / "outputs.csv")
     if request.param == "reference":
         run("effects", path, folder / "errors.csv", "-o", folder / "effects.csv")
         run("solve", path, "--element", "P1", "--n", 16, "-o", folder / "reference.npz")
@@ -47,7 +51,7 @@ def built(request, tmp_path_factory):
     return scene, folder
 
 
-def test_declared_and_found_are_the_same(built, capsys):
+def test_declared_and_found_are_the_same(built):
     scene, folder = built
     declared = declared_keys(scene.document)
     tables = {table for table in declared.values() if (folder / f"{table}.csv").is_file()} | {
@@ -59,10 +63,8 @@ def test_declared_and_found_are_the_same(built, capsys):
     assert [key for key in found if not table_of(key, declared)] == []
     whole = {key for key, table in declared.items() if table in tables and "*" not in key}
     missing = whole - found.keys()
-    assert {key.split(", ")[0] for key in missing} <= {
-        "rate",
-        "slope",
-    }  # of distances that are zero
+    # Slopes of distances that are zero.
+    assert {key.split(", ")[0] for key in missing} <= {"rate", "slope"}
     assert all("critical_points" in key for key in missing)
 
 
@@ -73,6 +75,18 @@ def test_a_number_is_the_text_of_its_table(built):
     norm = scene.document["norms"][0]
     assert f",{numbers[f'{norm}, CR, 4']}," in text
     assert float(numbers["h, P1, 4"]) * 4 == pytest.approx(1)
+
+
+def test_a_quantity_has_a_key_for_every_solution_and_the_reference(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text(SCENES["quantities"], encoding="utf-8")
+    scene = read_scene(path)
+    run("outputs", path, "-o", tmp_path / "outputs.csv")
+    numbers = read_numbers(scene, tmp_path, ["outputs"])
+    assert numbers["quantity, part, CR, finest"] == numbers["quantity, part, CR, 4"]
+    assert numbers["quantity, part, P1, coarsest"] == numbers["quantity, part, P1, 2"]
+    # From the critical point of the paper's problem, 0.698, to the corner.
+    assert float(numbers["quantity, part, P1, 16"]) == pytest.approx(1 - 0.698, abs=1 / 16)
 
 
 def test_rates_are_slopes_between_levels():

@@ -41,7 +41,7 @@ def _check_computed(path, published, scene):
     """Refuse a published number that the scene does not compute."""
     declared = declared_keys(scene.document)
     for line, number in published.items():
-        if table_of(number.key, declared) not in ("errors", "rates", "contact_line"):
+        if table_of(number.key, declared) not in ("errors", "rates", "outputs", "contact_line"):
             raise SceneError(
                 f"{path}: line {line}: the scene {scene.name} computes no {{{number.key}}}; "
                 f"{nearest_key(number.key, declared)}; or restore levels, elements and norms"

@@ -8,15 +8,18 @@ contact unknowns there are.
 import difflib
 
 from signorini.errors.rates import KINDS
+from signorini.mesh.boundary import labels_of
 from signorini.scene.table import computed_norms
 from signorini.wording import cut
 
 SLOPE, RATE, PUBLISHED, DEVIATION, EFFECT = "slope", "rate", "published", "deviation", "effect"
+QUANTITY = "quantity"
 STAR = "*"
 COARSEST, FINEST = ENDS = ("coarsest", "finest")  # levels by another name
 # Columns of errors.csv that are numbers, besides the norms.
 FACTS = ("h", "dofs", "residual", "accuracy", "multiplier_accuracy", "undecided", "iterations")
 LINE = ("component", "s", "x", "y", "u", "obstacle", "flux", "binding")  # of contact_line.csv
+THRESHOLD = "threshold"  # a column where data.contact_flux is not 0
 SUMMARY = ("total", "matched", "exact", "largest")  # of check.csv
 # Options of the discretisation; see `open_choices.effects`.
 CHOICES = ("diagonal", "load", "norm", "quadrature")
@@ -27,6 +30,7 @@ FILES = {
     "scene": "scene.json",
     "errors": "errors.csv",
     "rates": "rates.csv",
+    "outputs": "outputs.csv",
     "contact_line": "contact_line.csv",
     "check": "check.csv",
     "effects": "effects.csv",
@@ -75,7 +79,8 @@ def declared_keys(document, published=()):
     if document["truth"]["kind"] != "none":
         found |= dict.fromkeys(_error_keys(document), "errors")
         found |= dict.fromkeys(_rate_keys(document), "rates")
-    if "contact" in (*document["boundary"], *document["boundary"].values()):
+    found |= dict.fromkeys(_quantity_keys(document), "outputs")
+    if "contact" in labels_of(document["boundary"]):
         found |= dict.fromkeys(_line_keys(document), "contact_line")
     if published:
         found |= dict.fromkeys(_check_keys(published), "check")
@@ -125,11 +130,22 @@ def _rate_keys(document):
             yield from (key_of(SLOPE, norm, element, kind) for kind in KINDS)
 
 
+def _quantity_keys(document):
+    solutions = [(e, n) for e in document["elements"] for n in (*document["levels"], *ENDS)]
+    truth = document["truth"]
+    if truth["kind"] == "reference":
+        solutions.append((truth["element"], truth["n"]))
+    for name in document["quantities"]:
+        yield from (key_of(QUANTITY, name, *solution) for solution in solutions)
+
+
 def _line_keys(document):
+    has_threshold = document["data"].get("contact_flux", 0) != 0
     for element in document["elements"]:
         yield key_of("critical", element, "count")
         yield key_of("critical", element, STAR)
-        yield from (key_of("contact", name, element, STAR) for name in LINE)
+        names = (*LINE, THRESHOLD) if has_threshold else LINE
+        yield from (key_of("contact", name, element, STAR) for name in names)
 
 
 def _check_keys(published):

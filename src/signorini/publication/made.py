@@ -1,5 +1,6 @@
 """What a scene makes for a manuscript, and what of it a manuscript takes."""
 
+from signorini.mesh.boundary import labels_of
 from signorini.publication.keys import FILES, declared_keys, table_of
 from signorini.publication.manuscript import MACROS, read_manuscript
 from signorini.publication.published import read_published
@@ -36,7 +37,7 @@ def made_files(document):
 def _figures(document):
     """Names of the figures in the folder of that name."""
     yield "solution"
-    if "contact" in (*document["boundary"], *document["boundary"].values()):
+    if "contact" in labels_of(document["boundary"]):
         yield "contact_line"
     if document["truth"]["kind"] != "none" and "rates" in document["outputs"]:
         yield from document["norms"]

@@ -15,8 +15,10 @@ from signorini.publication.keys import (
     FINEST,
     LINE,
     PUBLISHED,
+    QUANTITY,
     RATE,
     SLOPE,
+    THRESHOLD,
     key_of,
 )
 from signorini.publication.published import read_published
@@ -105,13 +107,25 @@ def slope_numbers(rows, kind):
     return found
 
 
+def _of_outputs(scene, path):
+    found = {}
+    ends = {str(scene.levels[0]): COARSEST, str(scene.levels[-1]): FINEST}
+    for row in read_csv(path):
+        words = QUANTITY, row["name"], row["element"]
+        found[key_of(*words, row["n"])] = row["value"]
+        if row["n"] in ends and row["element"] in scene.elements:
+            found[key_of(*words, ends[row["n"]])] = row["value"]
+    return found
+
+
 def _of_line(scene, path):
     found = {}
     rows = read_csv(path)
     for element in scene.elements:
         own = [row for row in rows if row["element"] == element]
         for number, row in enumerate(own, start=1):
-            found |= {key_of("contact", name, element, number): row[name] for name in LINE}
+            cells = {name: row.get(name) for name in (*LINE, THRESHOLD)}
+            found |= {key_of("contact", name, element, number): cells[name] for name in cells}
         critical = [row["critical"] for row in own if row["critical"]]
         found[key_of("critical", element, "count")] = len(critical)
         for number, place in enumerate(critical, start=1):
@@ -141,7 +155,7 @@ def _of_effects(_, path):
 def _of_surface(_, path):
     surface = read_npz(path, kind="surface")
     u, obstacle = surface["contact_u"], surface["contact_obstacle"]
-    free = [k for k in range(len(u)) if u[k] > obstacle[k]]
+    free = [k for k in range(len(u)) if u[k] != obstacle[k]]
     found = {
         "surface, cells": len(surface["x"]) - 1,
         "surface, corner": float(surface["u"][0][0]),
@@ -158,6 +172,7 @@ _READERS = {
     "scene": _of_scene,
     "errors": _of_errors,
     "rates": _of_rates,
+    "outputs": _of_outputs,
     "contact_line": _of_line,
     "check": _of_check,
     "effects": _of_effects,

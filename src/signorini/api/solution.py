@@ -236,8 +236,8 @@ class Solution(solvers.Solution):
         """
         import skfem
 
-        element = {"P1": skfem.ElementTriP1, "CR": skfem.ElementTriCR}[self.problem.element]
-        return skfem.Basis(self.problem.mesh.skfem, element()), self.u
+        element = self.problem.finite_element.skfem()
+        return skfem.Basis(self.problem.mesh.skfem, element), self.u
 
     @property
     def _stored(self) -> Any:

@@ -11,11 +11,6 @@ from signorini.fem.elements import find_element
 from signorini.judge.elimination import EXTENDED
 from signorini.mesh.grid import Grid
 
-# The two local degrees of freedom that the facets 01, 12 and 02 of a triangle couple; of P1 its
-# ends, of CR the others.
-_COUPLED = {"P1": ((0, 1), (1, 2), (2, 0)), "CR": ((1, 2), (2, 0), (0, 1))}
-_FACTOR = {"P1": 1, "CR": 4}
-
 
 class Couplings(NamedTuple):
     """Terms w (u_i - u_j) of the forces, one for every facet of every triangle.
@@ -41,22 +36,31 @@ def couplings(mesh, element, coefficient=None):
     Parameters
     ----------
     mesh : Grid or Triangulation
-    element : {"P1", "CR"}
+    element : {"P1", "CR"} or Element
     coefficient : ndarray, shape (nt,), optional
 
     Returns
     -------
     Couplings
+
+    Examples
+    --------
+    Two right triangles of half a square each couple along their legs, and not along the diagonal:
+
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> square = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> couplings(square, "P1").weight.astype(float) + 0.0
+    array([0.5, 0.5, 0. , 0. , 0.5, 0.5])
     """
-    edges = _edge_vectors(mesh)
+    element, edges = find_element(element), _edge_vectors(mesh)
     crossing = edges[0, 0] * edges[1, 1], edges[0, 1] * edges[1, 0]
     area = np.abs(crossing[0] - crossing[1])
     cancelled = (np.abs(crossing[0]) + np.abs(crossing[1])) / area
     stiffness = 1 if coefficient is None else coefficient.astype(EXTENDED)
-    scale = EXTENDED(0.5 * _FACTOR[element]) / area * stiffness
-    dofs = find_element(element).triangle_dofs(mesh)
+    scale = EXTENDED(0.5 * element.coupling_factor) / area * stiffness
+    dofs = element.triangle_dofs(mesh)
     by_facet = []
-    for facet, (one, other) in enumerate(_COUPLED[element]):
+    for facet, (one, other) in enumerate(element.coupled):
         terms = edges[facet - 2] * edges[facet - 1]
         weight = -scale * terms.sum(axis=0)
         rounding = scale * np.abs(terms).sum(axis=0) + cancelled * np.abs(weight)

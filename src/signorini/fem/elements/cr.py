@@ -6,14 +6,13 @@ from signorini.fem.element_facts import CR_FACTS
 from signorini.fem.elements.edge_stencil import EDGE_STENCIL
 from signorini.fem.elements.element import Element, facets_of
 
-# A matrix has an entry for every two facets of a triangle; they run 01, 12, 02.
-_PAIRS = ((1, 2), (2, 0), (0, 1))
-
 
 class _CR(Element):
     facts = CR_FACTS
     # The function of the facet (i, j) is 1 at its two ends and -1 at the opposite vertex.
     basis = np.array([[1.0, 1.0, -1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])
+    coupled = ((1, 2), (2, 0), (0, 1))  # a facet couples the two others
+    coupling_factor = 4.0
     continuous = False
     stencil = EDGE_STENCIL
 
@@ -59,9 +58,9 @@ class _CR(Element):
         from scipy.sparse import coo_array
 
         t2f, count = mesh.t2f.astype(np.int32, copy=False), mesh.number_of_facets
-        ones = np.concatenate([t2f[first] for first, _ in _PAIRS])
-        others = np.concatenate([t2f[second] for _, second in _PAIRS])
-        coupling = 4.0 * couplings.ravel().astype(float)
+        ones = np.concatenate([t2f[first] for first, _ in self.coupled])
+        others = np.concatenate([t2f[second] for _, second in self.coupled])
+        coupling = self.coupling_factor * couplings.ravel().astype(float)
         diagonal = -np.bincount(ones, coupling, minlength=count)
         diagonal -= np.bincount(others, coupling, minlength=count)
         own = np.arange(count, dtype=t2f.dtype)

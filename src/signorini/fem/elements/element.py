@@ -14,6 +14,10 @@ class Element(ABC):
         Names, and memory that a solve needs.
     basis : ndarray, shape (3, 3)
         ``basis[i]`` holds the values of local shape function i at the three vertices of a triangle.
+    coupled : tuple of three pairs of int
+        The two local degrees of freedom that each facet (01, 12, 02) of a triangle couples.
+    coupling_factor : float
+        Their coupling over k_ij, see `stiffness`.
     continuous : bool
         Whether discrete functions are continuous.
     stencil : GridStencil
@@ -22,6 +26,8 @@ class Element(ABC):
 
     facts = None
     basis = None
+    coupled = None
+    coupling_factor = None
     continuous = None
     stencil = None
 

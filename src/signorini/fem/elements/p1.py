@@ -10,6 +10,8 @@ from signorini.fem.elements.vertex_stencil import VERTEX_STENCIL
 class _P1(Element):
     facts = P1_FACTS
     basis = np.eye(3)
+    coupled = ((0, 1), (1, 2), (2, 0))  # a facet couples its ends
+    coupling_factor = 1.0
     continuous = True
     stencil = VERTEX_STENCIL
 

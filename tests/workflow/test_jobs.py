@@ -20,6 +20,14 @@ def test_clean_build(fresh):
     assert fresh.jobs() == EVERYTHING
 
 
+def test_quantities_and_steps_are_a_job_each_where_a_scene_asks_for_them(fresh):
+    asked = "quantities: {force: {kind: flux}}\noutputs: [errors, rates, table, figures, steps]\n"
+    path = fresh / "config/scenes/small.yaml"
+    kept = [line for line in path.read_text().splitlines() if not line.startswith("outputs:")]
+    path.write_text("\n".join(kept) + f"\n{asked}")
+    assert fresh.jobs() == EVERYTHING | {"outputs": 1, "steps": 1}
+
+
 def test_clean_build_of_the_paper(fresh):
     fresh.ask_for("paper")
     expected = {

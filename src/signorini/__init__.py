@@ -30,12 +30,12 @@ _ROOMS = {
     "exact_solution": "api.exact",
     "kkt_residual": "solvers",
     "load_scene": "scene.read",
-    "polygon": "api.meshes",
+    "polygon": "api.domains",
     "problem": "api.problem",
     "rates": "api.convergence",
-    "rectangle": "api.meshes",
-    "solve": "api.solution",
-    "triangulation": "api.meshes",
+    "rectangle": "api.domains",
+    "solve": "api.solve",
+    "triangulation": "api.domains",
 }
 
 __all__ = sorted(_ROOMS)

@@ -1,13 +1,13 @@
 from signorini.api.convergence import convergence as convergence
 from signorini.api.convergence import rates as rates
+from signorini.api.domains import polygon as polygon
+from signorini.api.domains import rectangle as rectangle
+from signorini.api.domains import triangulation as triangulation
 from signorini.api.exact import exact_solution as exact_solution
 from signorini.api.meshes import Mesh as Mesh
-from signorini.api.meshes import polygon as polygon
-from signorini.api.meshes import rectangle as rectangle
-from signorini.api.meshes import triangulation as triangulation
 from signorini.api.problem import problem as problem
 from signorini.api.solution import Solution as Solution
-from signorini.api.solution import solve as solve
+from signorini.api.solve import solve as solve
 from signorini.exceptions import SignoriniError as SignoriniError
 from signorini.fem.problem import Problem as Problem
 from signorini.fem.problem import discretize as discretize

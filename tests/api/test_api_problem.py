@@ -141,6 +141,28 @@ def test_a_polygon_has_its_sides_and_nested_levels():
     assert mesh.to_skfem().boundaries.keys() >= {"floor", "slope", "wall"}
 
 
+@pytest.mark.parametrize("made", ["by us", "by scikit-fem"])
+def test_a_disc_that_follows_its_circle_converges(made):
+    """Without the curve the polygon of the first level would stay, and with it its error."""
+    rim, circle = ["rim"], {"rim": {"center": (0, 0), "radius": 1}}
+    angles = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    if made == "by us":
+        corners = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        disc = signorini.polygon(corners, 4, rim * 12, boundary_shape=circle)
+    else:
+        disc = signorini.triangulation(
+            skfem.MeshTri.init_circle(2), {"rim": lambda x, y: x + y < 9}, boundary_shape=circle
+        )
+    errors = []
+    for times in (0, 1, 2):
+        problem = signorini.problem(disc.refined(times), exact="1 - x*x - y*y", dirichlet="rim")
+        errors.append(signorini.solve(problem).errors("1 - x*x - y*y", ["l2"])["l2"])
+        assert np.allclose(
+            np.hypot(*problem.mesh.points(problem.mesh.boundary_vertices("dirichlet"))), 1
+        )
+    assert errors[0] > 3.5 * errors[1] > 3.5**2 * errors[2]
+
+
 def test_data_are_derived_from_an_exact_solution():
     sides = ["right", "top", "left"]
     mesh = signorini.rectangle(8)
@@ -237,6 +259,14 @@ def asked(mesh=MESH, *arguments, **changes):
         (lambda: signorini.rectangle(2, size=(0.3, 1)), "cuts the x side into 0.6 cells"),
         (lambda: signorini.polygon([(0, 0), (1, 0)], 4), "polygon: domain.corners"),
         (lambda: signorini.polygon([(0, 0), (1, 1), (1, 0), (0, 1)], 4), "cross"),
+        (
+            lambda: signorini.triangulation(SQUARE, boundary_shape={"rim": "x"}),
+            "domain.boundary_shape.rim: mesh has no such part; known: ",
+        ),
+        (
+            lambda: signorini.triangulation(SQUARE, boundary_shape={"top": 3}),
+            "boundary_shape.top: 3 (int) is no curve; give a formula",
+        ),
         (lambda: MESH.refined(-1), "times: -1 (int) is not valid"),
         (lambda: signorini.triangulation(SQUARE).level(3), "3 is no uniform refinement"),
         (

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from signorini.api.arguments import described
 from signorini.api.exact import check_functions, read_exact_solution
 from signorini.api.scene_study import scene_rows
-from signorini.api.solution import Solution, solve
+from signorini.api.solution import Solution
+from signorini.api.solve import solve
 from signorini.errors.measure import exact_measure, reference_measure, row
 from signorini.errors.norms import CONTACT, DOMAIN, RATED
 from signorini.exact import ExactSolution, with_coefficient

@@ -12,8 +12,9 @@ from signorini.api.arguments import (
     read_names,
     read_partwise,
 )
+from signorini.api.domains import as_mesh
 from signorini.api.exact import check_functions, read_exact_solution
-from signorini.api.meshes import Mesh, as_mesh
+from signorini.api.meshes import Mesh
 from signorini.api.types import Datum, Names, PartwiseDatum
 from signorini.exact import ExactSolution, derived_data, with_coefficient
 from signorini.exceptions import SceneError

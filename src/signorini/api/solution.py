@@ -1,4 +1,4 @@
-"""`solve`, and the solution that tells a program what it wants to know."""
+"""The solution that tells a program what it wants to know."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from signorini import solvers
-from signorini.api.arguments import described
-from signorini.api.types import Booleans, Floats
+from signorini.api.types import Floats
 from signorini.exceptions import SceneError
-from signorini.fem.problem import Problem
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -248,49 +246,6 @@ class Solution(solvers.Solution):
         problem = self.problem
         h = longest_edge(problem.mesh) if problem.h is None else problem.h
         return stored(problem, self, problem.n or 1, h)
-
-
-def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None) -> Solution:
-    """Solve a discrete Signorini problem.
-
-    Parameters
-    ----------
-    problem : Problem
-        Of `signorini.problem`, `Scene.problem` or `discretize`.
-    method : {"auto", "fourier", "direct", "multigrid"}
-        "auto" takes the cheapest route that applies and says why in the solution.
-    guess : ndarray of bool, shape (nc,), optional
-        Contact dofs believed to bind, for instance from a coarser level.
-
-    Returns
-    -------
-    Solution
-        Its status follows from the KKT residual, recomputed from the problem, and from the
-        estimated errors of u and of the contact forces; see docs/solvers.md.
-
-    Raises
-    ------
-    SolverError
-        If the data or the solution are not finite, the problem has no or no unique solution, the
-        method is unknown or does not apply or cannot prove its contact set, no digit of u survives
-        rounding, or the KKT residual of the result exceeds 1e-6.
-    SceneError
-        If `problem` is none.
-
-    Examples
-    --------
-    >>> import signorini
-    >>> scene = signorini.load_scene("config/scenes/paper.yaml")
-    >>> solution = signorini.solve(scene.problem("P1", 64))
-    >>> solution.status, round(float(solution.u[0]), 8)
-    ('solved', 0.60808628)
-    """
-    if not isinstance(problem, Problem):
-        raise SceneError(
-            f"problem: {described(problem)} is no Problem; "
-            "make one by signorini.problem(...) or scene.problem(element, n)"
-        )
-    return Solution(**vars(solvers.solve(problem, method, guess)))
 
 
 def _saved(figure: "Figure", path: str | Path | None) -> "Figure":

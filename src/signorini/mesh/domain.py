@@ -24,7 +24,8 @@ def make_domain(domain, boundary, coarsest):
     domain, boundary : dict
         Validated, defaults filled in, a mesh file's path resolved. Besides the kinds of a scene
         there is ``"given"``: its ``mesh`` is a `NamedMesh` of level `coarsest`, its ``width`` the
-        mesh width there, and ``rest`` the label of the facets in no part that `boundary` names.
+        mesh width there, ``rest`` the label of the facets in no part that `boundary` names, and
+        ``curves``, if there are any, the curves of parts, as of `read_curves`.
     coarsest : int
         The coarsest level: that of the root where there is one.
 
@@ -53,7 +54,9 @@ def make_domain(domain, boundary, coarsest):
     from signorini.mesh.rules import boundary_rules
 
     if domain["kind"] == "given":
-        root = labelled(domain["mesh"], boundary, domain["rest"], keep=boundary)
+        curves = domain.get("curves", {})
+        keep = dict.fromkeys([*boundary, *curves])
+        root = labelled(domain["mesh"], boundary, domain["rest"], keep=keep, curves=curves)
         return Refined(root, coarsest, domain["width"])
     curves = read_curves(domain.get("boundary_shape", {}))
     mesh = root_mesh(domain, coarsest, curves)

@@ -261,7 +261,7 @@ def asked(mesh=MESH, *arguments, **changes):
         (lambda: signorini.polygon([(0, 0), (1, 1), (1, 0), (0, 1)], 4), "cross"),
         (
             lambda: signorini.triangulation(SQUARE, boundary_shape={"rim": "x"}),
-            "domain.boundary_shape.rim: mesh has no such part; known: ",
+            "domain.boundary_shape.rim: mesh has no such part; did you mean right?",
         ),
         (
             lambda: signorini.triangulation(SQUARE, boundary_shape={"top": 3}),

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from signorini.exceptions import SolverError
-from signorini.solvers import contact
+from signorini.solvers import pivoting
 from signorini.solvers.contact import DenseContact, solve_contact
 
 EPS = np.finfo(float).eps
@@ -182,7 +182,7 @@ def test_cycles_of_the_plain_method_are_ended(family, n, condition, count):
 
 
 def test_least_index_rule_alone_is_finite(monkeypatch):
-    monkeypatch.setattr(contact, "BLOCK_LIMITS", (0, 0, np.inf))
+    monkeypatch.setattr(pivoting, "BLOCK_LIMITS", (0, 0, np.inf))
     rng = np.random.default_rng(6)
     singles = 0
     for family in FAMILIES:

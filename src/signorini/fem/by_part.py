@@ -49,6 +49,17 @@ def values_at(mesh, element, datum, dofs, check=True):
     ------
     FormulaError
         Where a value is not finite.
+
+    Examples
+    --------
+    >>> from signorini.fem.elements import find_element
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> dofs = mesh.boundary_vertices("contact")
+    >>> values_at(mesh, find_element("P1"), Formula("2*x", "obstacle"), dofs)
+    array([0., 1., 2.])
     """
     if not isinstance(datum, ByPart):
         return datum(*element.nodes(mesh, dofs), check=check)

@@ -30,6 +30,17 @@ def coefficient_on(mesh, coefficient):
         extreme.
     MeshError
         If the mesh has no subdomain of a name, or a triangle is in none that is named, or in two.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> coefficient_on(mesh, Formula("where(x < 0.5, 1, 2)", "data.coefficient"))
+    array([1., 2., 1., 2., 1., 2., 1., 2.])
+    >>> coefficient_on(mesh, Formula("1", "data.coefficient")) is None
+    True
     """
     if isinstance(coefficient, BySubdomain):
         values = _by_subdomain(mesh, coefficient)

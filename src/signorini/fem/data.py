@@ -80,6 +80,11 @@ def read_coefficient(value):
     """The entry ``data.coefficient`` of a scene.
 
     It is a `BySubdomain` where it is a section, else a `Formula`.
+
+    Examples
+    --------
+    >>> read_coefficient({"steel": 50, "copper": 400}).numbers["copper"]
+    400
     """
     kind = BySubdomain if isinstance(value, dict) else Formula
     return kind(value, "data.coefficient")

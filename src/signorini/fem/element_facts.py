@@ -37,7 +37,13 @@ class ElementFacts:
 
     @property
     def label(self):
-        """In the legend of a figure: abbreviation and name."""
+        """In the legend of a figure: abbreviation and name.
+
+        Examples
+        --------
+        >>> CR_FACTS.label
+        'NCF (CR)'
+        """
         return f"{self.abbreviation} ({self.name})"
 
     def bytes_by(self, route):
@@ -50,6 +56,11 @@ class ElementFacts:
         Returns
         -------
         int
+
+        Examples
+        --------
+        >>> P1_FACTS.bytes_by("direct")
+        1100
         """
         return {
             "fourier": GRID,

@@ -84,6 +84,11 @@ def weighted(weights, values):
     -------
     ndarray, shape (k, ...)
         Of one point (m = 1) a product, which is faster than a sum.
+
+    Examples
+    --------
+    >>> weighted(np.ones((1, 3)), np.array([[1.0], [2.0], [3.0]]))
+    array([[6.]])
     """
     if len(values) == 1:
         return weights.reshape(-1, *[1] * (values.ndim - 1)) * values

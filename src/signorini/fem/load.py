@@ -37,6 +37,20 @@ def assemble_load(mesh, element, f, g, rule):
     -------
     ndarray, shape (ndof,)
         Unit of f times length squared.
+
+    Examples
+    --------
+    The shape functions sum to one, so the entries sum to the integral of f over the square:
+
+    >>> from signorini.fem.elements import find_element
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> f, g = Formula("3", "f"), Formula("0", "g")
+    >>> b = assemble_load(mesh, find_element("CR"), f, g, "centroid")
+    >>> round(float(b.sum()), 12)
+    3.0
     """
     points, shape = _weighted_shape(element, rule, mesh.number_of_triangles)
     if f.constant == 0.0:
@@ -63,6 +77,17 @@ def assemble_contact_load(mesh, element, contact_flux):
     -------
     ndarray, shape (ndof,), or None
         int_{Gamma_C} s phi, unit of k u; None where s is the constant 0.
+
+    Examples
+    --------
+    >>> from signorini.fem.elements import find_element
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> s = Formula("2", "contact_flux")
+    >>> assemble_contact_load(mesh, find_element("P1"), s)[:3].round(12)
+    array([0.5, 1. , 0.5])
     """
     if contact_flux.constant == 0.0:
         return None

@@ -97,7 +97,15 @@ class Problem:
 
     @cached_property
     def free(self):
-        """Degrees of freedom that are not fixed, increasing."""
+        """Degrees of freedom that are not fixed, increasing.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> problem.free.size + problem.fixed.size == problem.b.size
+        True
+        """
         mask = np.ones(self.b.size, dtype=bool)
         mask[self.fixed] = False
         return np.flatnonzero(mask)
@@ -111,7 +119,17 @@ class Problem:
         return self.mesh if isinstance(self.mesh, Grid) and self.coefficient is None else None
 
     def apply(self, u):
-        """A @ u, without the matrix where a stencil is the whole of it (see `grid`)."""
+        """A @ u, without the matrix where a stencil is the whole of it (see `grid`).
+
+        Examples
+        --------
+        A constant meets no force:
+
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> bool(np.abs(problem.apply(np.ones(problem.b.size))).max() < 1e-14)
+        True
+        """
         if self.grid is not None:
             return apply_stiffness(self.grid, self.finite_element, u)
         return self.A @ u
@@ -121,6 +139,14 @@ class Problem:
         """Where the contact dofs are, shape (2, nc), unit of length.
 
         Vertices for P1, midpoints of facets for CR.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 4)
+        >>> problem.contact_points
+        array([[0.125, 0.375, 0.625, 0.875],
+               [0.   , 0.   , 0.   , 0.   ]])
         """
         return self.finite_element.nodes(self.mesh, self.contact)
 
@@ -138,6 +164,14 @@ class Problem:
         force, fluxes, sizes : ndarray, shape (nc,)
             (A u) at the contact dofs, the sum of the sizes of its differences, and (|A| |u|) there,
             what rounding of u is relative to; unit of the load.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> force, fluxes, sizes = problem.contact_fluxes(problem.mesh.p[1])
+        >>> bool(np.all(np.abs(force) <= fluxes)), bool(np.all(fluxes <= sizes))
+        (True, True)
         """
         from signorini.fem.residual import residual_and_fluxes
 
@@ -154,6 +188,13 @@ class Problem:
         """The length of contact part that each contact dof stands for, (nc,), unit of length.
 
         For CR that of its facet, for P1 half of each contact facet that meets there.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 4)
+        >>> problem.contact_lengths
+        array([0.125, 0.25 , 0.25 , 0.25 , 0.125])
         """
         return self.finite_element.boundary_lengths(self.mesh, "contact")[self.contact]
 
@@ -168,6 +209,14 @@ class Problem:
         Returns
         -------
         Problem
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> double = problem.with_data(b=2.0 * problem.b)
+        >>> bool(np.all(double.b == 2.0 * problem.b)), double.mesh is problem.mesh
+        (True, True)
         """
         changed = replace(self, **data)
         if "A" in vars(self):
@@ -226,6 +275,13 @@ class Problem:
         -------
         Problem
             This one where the constant is 0.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> float(problem.lower[0] - problem.shifted(1.0).lower[0])
+        1.0
         """
         if not constant:
             return self
@@ -289,6 +345,16 @@ def discretize_on(mesh, element, statement):
     Returns
     -------
     Problem
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+    >>> discretize_on(mesh, "P1", statement).contact
+    array([0, 1, 2], dtype=int32)
     """
     finite_element, data = find_element(element), statement.data
     check_poles(mesh, data.f)

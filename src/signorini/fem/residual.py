@@ -61,6 +61,14 @@ def residual_and_fluxes(A, b, u, rows=None, sums=None):
     -------
     residual, fluxes : ndarray, shape (m,)
         Unit of b.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> A = csr_array([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
+    >>> r, fluxes = residual_and_fluxes(A, np.zeros(3), np.array([0.0, 1.0, 3.0]))
+    >>> r.tolist(), fluxes.tolist()
+    ([1.0, 1.0, -2.0], [1.0, 3.0, 2.0])
     """
     fluxes = np.zeros(b.size)
     return _by_differences(A, b, u, rows, sums, fluxes), fluxes
@@ -70,6 +78,12 @@ def row_sums(A):
     """The sum of each row of a matrix, shape (m,): zero where it is no more than round-off.
 
     Empty where all are.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> row_sums(csr_array([[3.0, -1.0], [-1.0, 1.0]])).tolist()
+    [2.0, 0.0]
     """
     sums = np.zeros(A.shape[0])
     for rows, entries, starts in _row_chunks(A):
@@ -141,5 +155,10 @@ def rounding_of(b, fluxes):
     -------
     ndarray, shape (m,)
         Unit of b.
+
+    Examples
+    --------
+    >>> float(rounding_of(np.array([0.0]), np.array([1.0]))[0] / EPS)
+    4.0
     """
     return EPS * (_FLUX * fluxes + np.abs(b))

@@ -49,6 +49,16 @@ def diagonal(grid, element):
     -------
     ndarray, shape (ndof,)
         Dimensionless.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> diagonal(mesh, "P1").reshape(3, 3)
+    array([[1., 2., 1.],
+           [2., 4., 2.],
+           [1., 2., 1.]])
     """
     return find_element(element).stencil.diagonal(grid)
 
@@ -68,5 +78,18 @@ def contact_fluxes(grid, element, u, contact):
     -------
     force, fluxes, sizes : ndarray, shape (nc,)
         (A u) there, the sum of the sizes of its differences, and (|A| |u|) there; unit of u.
+
+    Examples
+    --------
+    u = y flows out across the contact side, where dofs stand for a quarter, a half and a
+    quarter:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> contact = mesh.boundary_vertices("contact")
+    >>> force, fluxes, sizes = contact_fluxes(mesh, "P1", mesh.p[1], contact)
+    >>> force
+    array([-0.25, -0.5 , -0.25])
     """
     return find_element(element).stencil.contact_fluxes(grid, u, contact)

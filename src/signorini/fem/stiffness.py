@@ -30,6 +30,18 @@ def assemble_stiffness(mesh, element, coefficient=None):
     scipy.sparse.csr_array, shape (ndof, ndof)
         Unit of the coefficient. Couplings that are exactly zero, as across a right angle, are not
         stored.
+
+    Examples
+    --------
+    >>> from signorini.fem.elements import find_element
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> assemble_stiffness(mesh, find_element("P1")).toarray()
+    array([[ 1. , -0.5, -0.5,  0. ],
+           [-0.5,  1. ,  0. , -0.5],
+           [-0.5,  0. ,  1. , -0.5],
+           [ 0. , -0.5, -0.5,  1. ]])
     """
     stretched = not isinstance(mesh, Grid) and mesh.stretch > _STRETCHED
     couplings = (_extended_couplings if stretched else facet_couplings)(mesh, coefficient)
@@ -51,6 +63,17 @@ def facet_couplings(mesh, coefficient=None):
     -------
     ndarray, shape (3, nt)
         Unit of the coefficient.
+
+    Examples
+    --------
+    Legs of a right triangle couple by -1/2, its longest side not at all:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> facet_couplings(mesh).T
+    array([[-0.5,  0. , -0.5],
+           [-0.5,  0. , -0.5]])
     """
     k = np.empty((3, mesh.number_of_triangles))
     for cells in chunk_slices(mesh.number_of_triangles):

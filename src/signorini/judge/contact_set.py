@@ -91,6 +91,17 @@ class CondensedProblem:
         -------
         force, terms : ndarray of longdouble, shape (ndof,)
             The sums, and the sizes of the terms that they are rounded from.
+
+        Examples
+        --------
+        A constant meets no force:
+
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> zero = np.zeros(problem.b.size, dtype=EXTENDED)
+        >>> force, _ = CondensedProblem(problem).forces(zero + 1, zero)
+        >>> bool(np.any(force))
+        False
         """
         first, second, weight, rounding = self.couplings
         difference = (head[first] - head[second]) + (tail[first] - tail[second])

@@ -19,6 +19,15 @@ def bounded_least_squares(problem):
         the body.
     size : float
         Of the terms that u is made of, unit of u.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> u, condition, size = bounded_least_squares(problem)
+    >>> from signorini import solve
+    >>> bool(np.abs(u - solve(problem).u).max() < 1e-13)
+    True
     """
     A, c = problem.A.toarray(), problem.contact
     i = np.setdiff1d(problem.free, c)

@@ -108,6 +108,14 @@ class Elimination:
             At each node when it is eliminated; what `back_substitute` needs.
         kept : ndarray of longdouble, shape (m, r)
             What reaches the nodes kept.
+
+        Examples
+        --------
+        The pull of 1 at the end of a chain reaches the ground:
+
+        >>> chain = Elimination(np.array([0]), np.array([1]), np.ones(1), np.array([[1.0], [0.0]]))
+        >>> chain.condense(np.array([[0.0], [1.0]]))[1].astype(float)
+        array([[1.]])
         """
         loads = np.zeros((self.size + self.width, load.shape[1]), dtype=EXTENDED)
         loads[: self.size] = load

@@ -73,7 +73,16 @@ class Judgement:
         )
 
     def distance(self, u):
-        """Largest error of u, relative to the variation."""
+        """Largest error of u, relative to the variation.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, solve
+        >>> from signorini.judge import judge
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> judge(problem).distance(solve(problem).u) < 1e-14
+        True
+        """
         return ratio(largest((u - self.shift) - self.displacement), self.variation)
 
     def force(self, decided):
@@ -105,6 +114,15 @@ class Judgement:
         -------
         float
             Relative to `force`.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, solve
+        >>> from signorini.judge import judge
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> solution = solve(problem)
+        >>> judge(problem).multiplier_distance(solution.multiplier, ~solution.undecided) < 1e-13
+        True
         """
         return ratio(largest(multiplier - self.multiplier), self.force(decided))
 
@@ -119,6 +137,15 @@ class Judgement:
         Returns
         -------
         int
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, solve
+        >>> from signorini.judge import judge
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> solution = solve(problem)
+        >>> judge(problem).wrong_side(solution.active, solution.undecided)
+        0
         """
         return int(np.sum((active != self.active) & (self.margin > 1) & ~undecided))
 
@@ -134,12 +161,26 @@ class Judgement:
         Returns
         -------
         int
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, solve
+        >>> from signorini.judge import judge
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> judge(problem).needless(solve(problem).undecided, factor=1e3)
+        0
         """
         return int(np.sum(undecided & (self.margin > factor * DOUBLE / EPS)))
 
 
 def largest(values):
-    """The largest absolute value, 0 of nothing; longdouble."""
+    """The largest absolute value, 0 of nothing; longdouble.
+
+    Examples
+    --------
+    >>> float(largest(np.array([1.0, -3.0])))
+    3.0
+    """
     return np.max(np.abs(values), initial=EXTENDED(0))
 
 

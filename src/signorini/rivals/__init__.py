@@ -71,7 +71,16 @@ class BoundProblem:
 
     @classmethod
     def of(cls, problem):
-        """The problem without its Dirichlet unknowns."""
+        """The problem without its Dirichlet unknowns.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> qp = BoundProblem.of(problem)
+        >>> qp.K.shape[0] == problem.free.size, qp.floating
+        (True, False)
+        """
         u = _prescribed(problem)
         free = problem.free
         K = problem.A[free][:, free].tocsc()
@@ -82,7 +91,16 @@ class BoundProblem:
 
     @property
     def bounds(self):
-        """Lower bound of every unknown, -inf off the contact part, shape (n,)."""
+        """Lower bound of every unknown, -inf off the contact part, shape (n,).
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> bounds = BoundProblem.of(problem).bounds
+        >>> int(np.isfinite(bounds).sum()) == problem.contact.size
+        True
+        """
         bounds = np.full(self.f.size, -np.inf)
         bounds[self.contact] = self.lower
         return bounds
@@ -139,6 +157,14 @@ class Rival:
         Returns
         -------
         Answer
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, kkt_residual
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> answer = RIVALS["spsolve"].solve(problem)
+        >>> answer.claimed, kkt_residual(problem, answer.u)[0] < 1e-12
+        (True, True)
         """
         if problem.upper:
             answer = self.solve(mirrored(problem), tolerance, time_limit)

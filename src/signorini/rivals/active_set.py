@@ -24,6 +24,17 @@ def active_set(qp, solve_free):
     x : ndarray, shape (n,)
     claimed : bool
     steps : int
+
+    Examples
+    --------
+    >>> from scipy.sparse.linalg import spsolve as solve_sparse
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.rivals import BoundProblem
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> qp = BoundProblem.of(problem)
+    >>> x, claimed, steps = active_set(qp, lambda free, rhs: solve_sparse(qp.K[free][:, free], rhs))
+    >>> claimed, bool(np.all(x[qp.contact] >= qp.lower))
+    (True, True)
     """
     active = np.full(qp.contact.size, qp.floating)
     for step in range(1, _MAX_STEPS + 1):
@@ -49,7 +60,17 @@ def spsolve(qp):
 
 
 def superlu(qp):
-    """SuperLU told that the matrix is symmetric and positive definite, in every step."""
+    """SuperLU told that the matrix is symmetric and positive definite, in every step.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.rivals import BoundProblem
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> _, claimed, steps = superlu(BoundProblem.of(problem))
+    >>> claimed, steps < 10
+    (True, True)
+    """
     from scipy.sparse.linalg import splu
 
     mode = {"options": {"SymmetricMode": True}, "diag_pivot_thresh": 0.0}

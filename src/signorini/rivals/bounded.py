@@ -6,7 +6,17 @@ _MAX_STEPS = 100_000
 
 
 def lbfgsb(qp):
-    """SciPy's L-BFGS-B, stopped by the projected gradient alone."""
+    """SciPy's L-BFGS-B, stopped by the projected gradient alone.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.rivals import BoundProblem
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> x, _, _ = lbfgsb(BoundProblem.of(problem))
+    >>> x.size == problem.free.size
+    True
+    """
     from scipy.optimize import minimize
 
     def stop_when_late(x):
@@ -34,7 +44,17 @@ def lbfgsb(qp):
 
 
 def bvls(qp):
-    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the condensed matrix."""
+    """SciPy's BVLS (Stark and Parker) on Cholesky's factor of the condensed matrix.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.rivals import BoundProblem
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> x, claimed, _ = bvls(BoundProblem.of(problem))
+    >>> bool(claimed), x.size == problem.free.size
+    (True, True)
+    """
     from scipy.linalg import cholesky, solve_triangular
     from scipy.optimize import lsq_linear
     from scipy.sparse.linalg import splu

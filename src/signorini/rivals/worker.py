@@ -27,7 +27,15 @@ class Worker:
         self.process = self.trouble = None
 
     def ask(self, *arguments):
-        """What the function returns, or None where it took too long or the process died."""
+        """What the function returns, or None where it took too long or the process died.
+
+        Examples
+        --------
+        >>> worker = Worker(pow, time_limit=10.0)
+        >>> worker.ask(2, 10)
+        1024
+        >>> worker.close()
+        """
         if self.process is None:
             self._start()
         self.trouble = None

@@ -40,6 +40,13 @@ class Attempt:
         ------
         SolverError
             Where there is none.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> attempt(problem, "direct").result().status
+        'solved'
         """
         if self.error:
             raise self.error
@@ -58,6 +65,15 @@ def attempt(problem, method):
     Returns
     -------
     Attempt
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> attempt(problem, "fourier").applies
+    True
+    >>> attempt(problem, "multigrid").seconds > 0.0
+    True
     """
     solution = refusal = None
     start = time.perf_counter()
@@ -80,6 +96,13 @@ def attempts(problem, methods=METHODS):
     ------
     Attempt
         Of every route that applies.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> [trial.method for trial in attempts(problem)]
+    ['fourier', 'direct', 'multigrid']
     """
     for method in methods:
         trial = attempt(problem, method)
@@ -103,6 +126,13 @@ def solutions(problem):
     ------
     SolverError
         If one of them refuses the problem.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> {method: solution.status for method, solution in solutions(problem)}
+    {'fourier': 'solved', 'direct': 'solved', 'multigrid': 'solved'}
     """
     for trial in attempts(problem):
         yield trial.method, trial.result()

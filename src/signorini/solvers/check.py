@@ -71,6 +71,14 @@ def checked_guess(problem, guess):
     ------
     SolverError
         If it is no mask of the contact dofs.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> guess = np.ones(problem.contact.size, dtype=bool)
+    >>> checked_guess(problem, guess).size, checked_guess(problem, None) is None
+    (9, True)
     """
     if guess is None:
         return None
@@ -93,6 +101,12 @@ def check_symmetric(A):
     ------
     SolverError
         If it is neither.
+
+    Examples
+    --------
+    Nothing is said of a symmetric matrix:
+
+    >>> check_symmetric(np.array([[2.0, -1.0], [-1.0, 2.0]]))
     """
     x = np.random.default_rng(0).random(A.shape[0]) - 0.5
     y = x[::-1].copy()

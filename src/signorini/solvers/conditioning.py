@@ -10,18 +10,43 @@ JUMP = 30.0
 def has_jumps(coefficient):
     """Whether a coefficient varies so much that coarse meshes, or plain products with A, cannot
     follow it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> has_jumps(np.array([1.0, 2.0])), has_jumps(np.array([1.0, 100.0]))
+    (False, True)
     """
     return coefficient is not None and bool(coefficient.max() > JUMP * coefficient.min())
 
 
 def is_regular(mesh):
-    """Whether no cell of a mesh is stretched."""
+    """Whether no cell of a mesh is stretched.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> is_regular(Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    True
+    >>> is_regular(Grid(4, 4, (0.0, 0.0), (100.0, 1.0), "falling", labels))
+    False
+    """
     return mesh.stretch <= STRETCHED
 
 
 def is_nested(mesh):
     """Whether the meshes that `mesh` was refined from make good levels: there is one, and no cell
     is stretched.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> is_nested(Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    True
+    >>> is_nested(Grid(3, 3, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    False
     """
     return mesh.coarser() is not None and is_regular(mesh)
 

@@ -151,6 +151,14 @@ def approximate_solution(level, cycle, load, tolerance):
     -------
     ndarray, shape (n,)
         Unit of u.
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> from signorini.solvers.level import Level
+    >>> level = Level(csr_array(np.diag([1.0, 2.0, 4.0])))
+    >>> approximate_solution(level, lambda r: r.copy(), np.ones(3), 1e-12).round(10)
+    array([1.  , 0.5 , 0.25])
     """
     x, r = np.zeros_like(load), load.copy()
     p, rz = None, 1.0

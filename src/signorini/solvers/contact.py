@@ -14,11 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import SolverError
+from signorini.solvers.pivoting import PivotingRule
 from signorini.work import count
 
-_ALL, _HALF, _ONE = range(3)  # of the dofs with a wrong sign: what is exchanged at once
-# Exchanges of each block without fewer wrong signs, after which a smaller one is taken; measured.
-BLOCK_LIMITS = (5, 100, np.inf)
 TOLERANCE = 1e-9  # natural residual above which there is no solution to return
 
 
@@ -76,7 +74,13 @@ class DenseContact:
         return self.S.diagonal()
 
     def apply(self, w):
-        """Product ``S w``, shape (n,)."""
+        """Product ``S w``, shape (n,).
+
+        Examples
+        --------
+        >>> DenseContact(np.diag([2.0, 3.0])).apply(np.array([1.0, 1.0]))
+        array([2., 3.])
+        """
         count(inner=1)
         return self.S @ w
 
@@ -104,6 +108,12 @@ class DenseContact:
         ------
         SolverError
             Unless the block is positive definite beyond rounding.
+
+        Examples
+        --------
+        >>> S = DenseContact(np.array([[2.0, -1.0], [-1.0, 2.0]]))
+        >>> S.solve_free(np.array([True, False]), np.array([1.0]))
+        array([0.5])
         """
         K = self.S[np.ix_(free, free)]
         try:
@@ -148,6 +158,17 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
     SolverError
         If the data are not finite or do not fit, `S` is not positive definite, `singular` and
         ``sum(q) >= 0`` (no unique solution), or the iteration ends without a solution.
+
+    Examples
+    --------
+    The second dof is pulled against the obstacle:
+
+    >>> S = DenseContact(np.array([[2.0, -1.0], [-1.0, 2.0]]))
+    >>> result = solve_contact(S, np.array([1.0, -2.0]))
+    >>> result.w, result.multiplier
+    (array([0.5, 0. ]), array([0. , 1.5]))
+    >>> result.active
+    array([False,  True])
     """
     q = _finite("q", q)
     # A lone dof of a floating body carries the whole load, whatever round-off its S is.
@@ -158,6 +179,7 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
             f"shapes q {q.shape}, guess {active.shape}, S {diag.shape} differ, or diag S <= 0"
         )
     weight = np.sqrt(diag)
+    # The load is scaled by a power of two to the size of the weights, so that nothing overflows.
     shift = -int(np.max((np.frexp(q)[1] - np.frexp(weight)[1])[q != 0], initial=-2000))
     load = np.ldexp(q, shift)
     if singular and np.sum(load) >= 0:
@@ -166,11 +188,11 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
             "sum(q), the load left, must be negative"
         )
     w, *cost = _pivot(operator, load, weight, active, max_iterations, singular)
-    rate = operator.apply(w) - load
+    force = operator.apply(w) - load
     size = np.max([w * weight, np.abs(load) / weight], initial=np.finfo(float).tiny)
-    residual = float(np.max(np.abs(np.minimum(w * weight, rate / weight)), initial=0) / size)
+    residual = float(np.max(np.abs(np.minimum(w * weight, force / weight)), initial=0) / size)
     with np.errstate(over="ignore"):
-        pair = np.ldexp([w, np.where(w > 0, 0.0, np.maximum(rate, 0))], -shift)
+        pair = np.ldexp([w, np.where(w > 0, 0.0, np.maximum(force, 0))], -shift)
     if not (residual <= TOLERANCE and np.isfinite(pair).all()):
         raise SolverError(
             f"contact solve left the residual {residual:.1e}: S ill-conditioned, or overflow"
@@ -179,80 +201,32 @@ def solve_contact(operator, q, guess=None, max_iterations=200, singular=False):
 
 
 def _pivot(operator, load, weight, active, max_iterations, singular):
+    """The gap w, and what it cost: see `ContactResult` from `iterations` on."""
     rule, solves = PivotingRule(), 0
     for iteration in range(1, max_iterations + 1):
         count(steps=1)
         if singular and not active.any():
             active[np.argmin(load / weight)] = True
+        # The equation holds with this set: no gap in contact, no force apart from the obstacle.
         w, free = np.zeros_like(load), ~active
         if free.any():
             w[free] = operator.solve_free(free, load[free])
             solves += 1
-        rate, gap, band = operator.apply(w) - load, w * weight, rule.slack * operator.band
-        pulling = rate < -band * (operator.apply_abs(w) + np.abs(load))
-        wrong = np.where(active, pulling, gap < -band * np.max(np.abs(gap), initial=0))
+        force, gap = operator.apply(w) - load, w * weight
+        # The inequality is looked at afterwards. A sign counts only beyond the dead band, what
+        # rounding of the terms may do: a smaller one could change for ever.
+        band = rule.slack * operator.band
+        pulling = force < -band * (operator.apply_abs(w) + np.abs(load))
+        penetrating = gap < -band * np.max(np.abs(gap), initial=0)
+        wrong = np.where(active, pulling, penetrating)
         if not wrong.any():
-            return (
-                np.maximum(w, 0),
-                iteration,
-                solves,
-                sum(rule.steps[:2]),
-                rule.steps[2],
-                rule.changes,
-            )
-        active[rule.choose(active, wrong, np.where(active, rate / weight, gap))] ^= True
+            block_steps, single_steps = sum(rule.steps[:2]), rule.steps[2]
+            return np.maximum(w, 0), iteration, solves, block_steps, single_steps, rule.changes
+        depth = np.where(active, force / weight, gap)
+        active[rule.choose(active, wrong, depth)] ^= True
     raise SolverError(
         f"no contact set in {max_iterations} iterations: {rule.fewest} dofs violated at best"
     )
-
-
-class PivotingRule:
-    """Block pivoting: which of the dofs with a wrong sign change sides.
-
-    All of them; where that stops paying, the worse half; at last one, the last in their order
-    (Murty's rule, finite for any fixed order).
-    """
-
-    def __init__(self):
-        self.fewest, self.slack, self.changes, self.steps = np.inf, 1, 0, [0, 0, 0]
-
-    def choose(self, active, wrong, depth):
-        """Choose the dofs that change sides in the next step.
-
-        Parameters
-        ----------
-        active : ndarray of bool, shape (n,)
-            The contact set at hand.
-        wrong : ndarray of bool, shape (n,)
-            The dofs whose sign is wrong.
-        depth : ndarray, shape (n,)
-            How far each violates its condition; the more negative, the worse. Unit of u.
-
-        Returns
-        -------
-        ndarray of int
-            Their indices; at least one.
-        """
-        violated = np.flatnonzero(wrong)
-        self._choose_block(len(violated), active.tobytes())
-        if self.block == _HALF:
-            violated = violated[np.argsort(-depth[violated], kind="stable")]
-        size = {_ALL: len(violated), _HALF: (len(violated) + 1) // 2, _ONE: 1}[self.block]
-        exchanged = violated[-size:]
-        self.steps[self.block] += 1
-        self.changes += len(exchanged)
-        return exchanged
-
-    def _choose_block(self, count, active):
-        """Start anew where fewer signs are wrong than ever; else go on, and give way in time."""
-        if count < self.fewest:
-            self.fewest, self.block, self.seen = count, _ALL, set()
-        elif active in self.seen and self.block == _ONE:
-            # Murty's rule never returns to an active set: the signs are round-off.
-            self.slack, self.seen = 4 * self.slack, set()
-        elif active in self.seen or len(self.seen) >= BLOCK_LIMITS[self.block]:
-            self.block, self.seen = self.block + 1, set()
-        self.seen.add(active)
 
 
 def _back_substitute(U, b, block=64):

@@ -97,5 +97,17 @@ def preconditioner(levels, constrained):
     -------
     Cycle or Eliminated
         The latter where the levels ask for it.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.solvers.hierarchy import build_hierarchy
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 32)
+    >>> constrained = np.zeros(problem.b.size, dtype=bool)
+    >>> constrained[problem.fixed] = True
+    >>> cycle = preconditioner(build_hierarchy(problem), constrained)
+    >>> z = cycle(np.where(constrained, 0.0, problem.b))
+    >>> bool(np.any(z[~constrained])), bool(np.any(z[constrained]))
+    (True, False)
     """
     return (EliminatedCycle if levels[0].robust else Cycle)(levels, constrained)

@@ -20,8 +20,9 @@ from signorini.fem.residual import (
 )
 from signorini.memory import check_memory
 from signorini.solvers.conditioning import STRETCHED, accuracy_loss_causes, has_jumps
-from signorini.solvers.contact import DenseContact, PivotingRule, solve_contact
+from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.dot import dot
+from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
     USELESS_ACCURACY,
@@ -66,6 +67,14 @@ def solve_direct(problem, guess=None):
         If the factors do not fit this machine.
     SolverError
         As `solvers.fourier.solve_fourier`.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> result = solve_direct(problem)
+    >>> result.accuracy < 1e-14, int(result.active.sum()), int(result.undecided.sum())
+    (True, 3, 0)
     """
     check_memory(
         problem.mesh.number_of_triangles,

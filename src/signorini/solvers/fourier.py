@@ -14,8 +14,9 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
-from signorini.solvers.contact import PivotingRule, solve_contact
+from signorini.solvers.contact import solve_contact
 from signorini.solvers.line_elimination import EdgeLines, VertexLines, orient
+from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     ErrorEstimates,
     assess,
@@ -36,7 +37,17 @@ _SAFETY = 8.0  # of a bound over the last correction
 
 
 def why_not(problem):
-    """Say why the route does not apply to a problem, or None where it does."""
+    """Say why the route does not apply to a problem, or None where it does.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> why_not(problem) is None
+    True
+    >>> why_not(discretize(load_scene("config/scenes/l-shape.yaml"), "P1", 8))
+    'the mesh is not a uniform grid'
+    """
     grid = problem.grid
     if grid is None:
         return (
@@ -72,6 +83,14 @@ def solve_fourier(problem, guess=None):
     ------
     SolverError
         If the active-set iteration does not end.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> result = solve_fourier(problem)
+    >>> result.accuracy < 1e-14, int(result.active.sum())
+    (True, 3)
     """
     elimination = _ELIMINATIONS[problem.element](problem.grid, orient(problem.grid))
     line = _ContactLine(guess, singular=problem.fixed.size == 0)

@@ -9,9 +9,9 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.conjugate_gradients import ConjugateGradients, approximate_solution
-from signorini.solvers.contact import PivotingRule
 from signorini.solvers.cycle import preconditioner
 from signorini.solvers.dot import dot
+from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
     ErrorEstimates,

@@ -32,6 +32,18 @@ class OrientedGrid:
     def orient_rows(self, rows):
         """Turn an array of the grid (row 0 at the bottom) so that row 0 lies on the contact side;
         undone by `restore_rows`.
+
+        Examples
+        --------
+        With the contact side on top:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("dirichlet", "neumann", "contact", "neumann")
+        >>> oriented = orient(Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+        >>> oriented.orient_rows(np.arange(9).reshape(3, 3))
+        array([[6, 7, 8],
+               [3, 4, 5],
+               [0, 1, 2]])
         """
         rows = rows[:, ::-1].T if self.side == "right" else rows.T if self.side == "left" else rows
         return rows[::-1] if self.side == "top" else rows
@@ -99,6 +111,18 @@ class LineElimination:
             Back substitution is rows[j] += factors[j] rows[j - 1].
         symbol : ndarray
             What is left of the diagonal of row 0: the eigenvalues of S.
+
+        Examples
+        --------
+        The eigenvalues of the Schur complement on two cells:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> lines = VertexLines(mesh, orient(mesh))
+        >>> _, symbol = lines.eliminate(np.ones((2, 3)))
+        >>> symbol.round(6)
+        array([0.5     , 1.75    , 2.833333])
         """
         eigenvalues = self.oriented.k_along * self.basis.eigenvalues
         coupling = self.oriented.k_away * self.coupling

@@ -5,7 +5,7 @@ Each level starts from the solution and the contact set of the one before (neste
 conjugate gradients run, signs on the contact part are looked at in every step: what violates them
 by more than the error that is left nearby changes sides, and the iteration goes on with the new set
 held. So a set is never solved for more accurately than is needed to see that it is wrong. Exchanges
-are safeguarded as on the other routes (`contact.PivotingRule`).
+are safeguarded as on the other routes (`pivoting.PivotingRule`).
 
 On the finest level conjugate gradients run on corrections, each time from a residual by
 differences, so that no entry of A limits them; then the errors of gaps and forces are bounded, and
@@ -33,7 +33,15 @@ from signorini.work import counting
 
 
 def why_not(problem):
-    """Say why the route does not apply to a problem, or None where it does."""
+    """Say why the route does not apply to a problem, or None where it does.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> why_not(problem) is None
+    True
+    """
     most, stretch = problem.finite_element.facts.multigrid_stretch, problem.mesh.stretch
     if stretch > most:
         return (
@@ -55,6 +63,14 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     Returns
     -------
     RouteResult
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 32)
+    >>> result = solve_multigrid(problem)
+    >>> result.accuracy < 1e-13, int(result.active.sum())
+    (True, 10)
     """
     check_memory(
         problem.mesh.number_of_triangles,

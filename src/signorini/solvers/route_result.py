@@ -91,6 +91,13 @@ def error_bounds(one_way, samples):
     -------
     ndarray, shape (nc,)
         Unit of the samples.
+
+    Examples
+    --------
+    At least three times the sample at the same dof:
+
+    >>> error_bounds(np.array([1.0, 8.0]), np.array([[0.5, 2.0]]))
+    array([1.5, 8. ])
     """
     samples = np.abs(samples)
     low, high = SAFETY * samples.max(axis=0), _LARGEST_BOUND * samples.max(initial=0.0)
@@ -98,7 +105,13 @@ def error_bounds(one_way, samples):
 
 
 def variation_of(u):
-    """What errors of u are relative to: its variation, or its size where it is constant."""
+    """What errors of u are relative to: its variation, or its size where it is constant.
+
+    Examples
+    --------
+    >>> variation_of(np.array([2.0, 5.0])), variation_of(np.array([-4.0, -4.0]))
+    (3.0, 4.0)
+    """
     return (float(np.ptp(u)) or float(np.max(np.abs(u)))) if u.size else 0.0
 
 
@@ -119,6 +132,17 @@ def violated_signs(active, gap, force, errors, variation=None):
     Returns
     -------
     ndarray of bool, shape (nc,)
+
+    Examples
+    --------
+    A force of -0.05 may be round-off where the error is 0.1; -0.2 may not, nor a gap of -0.5:
+
+    >>> bound, loads, stiffness = np.full(3, 0.1), np.zeros(3), np.ones(3)
+    >>> errors = ErrorEstimates(0.1, 0.1, bound, bound, loads, stiffness, force_scale=1.0)
+    >>> active = np.array([True, True, False])
+    >>> gap, force = np.array([0.0, 0.0, -0.5]), np.array([-0.05, -0.2, 0.0])
+    >>> violated_signs(active, gap, force, errors)
+    array([False,  True,  True])
     """
     gaps, forces = errors.gaps, errors.forces
     if variation is not None:

@@ -75,7 +75,16 @@ class SchurComplement:
         return 0.5 * (S + S.T)
 
     def condense(self, load):
-        """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,)."""
+        """The load condensed to the contact dofs: b_c - A_ci inv(A_ii) b_i, shape (nc,).
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+        >>> schur = SchurComplement(problem)
+        >>> schur.condense(problem.b).shape == problem.contact.shape
+        True
+        """
         rhs = load[self.order]
         split = len(rhs) - self.count
         rhs[split:] = 0.0
@@ -140,6 +149,13 @@ def singular_message(problem):
 def loose_part(problem):
     """A point of a part of the body that neither a Dirichlet nor a contact part holds, (2,), or
     None.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> loose_part(problem) is None
+    True
     """
     from scipy.sparse.csgraph import connected_components
 
@@ -166,6 +182,17 @@ def dissection_order(A, nodes):
     Returns
     -------
     ndarray of int, shape (m,)
+
+    Examples
+    --------
+    Each unknown comes once:
+
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 8)
+    >>> nodes = problem.finite_element.nodes(problem.mesh, problem.free)
+    >>> order = dissection_order(problem.A[problem.free][:, problem.free], nodes)
+    >>> np.array_equal(np.sort(order), np.arange(problem.free.size))
+    True
     """
     count = A.shape[0]
     if count <= _LEAF:

@@ -139,6 +139,18 @@ def kkt_residual(problem, u):
     residual : float
         Dimensionless; infinite where u is not finite.
     multiplier : ndarray, shape (nc,)
+
+    Examples
+    --------
+    Zero is no solution of the paper's problem:
+
+    >>> from signorini import discretize, load_scene, solve
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> residual, multiplier = kkt_residual(problem, solve(problem).u)
+    >>> residual < 1e-15, multiplier.shape == problem.contact.shape
+    (True, True)
+    >>> kkt_residual(problem, np.zeros(problem.b.size))[0] > 1e-3
+    True
     """
     if problem.upper:
         residual, multiplier = kkt_residual(mirrored(problem), negated(u))
@@ -198,7 +210,13 @@ def _pressure(problem, u):
 
 
 def largest(values):
-    """Greatest absolute value, without an array of them."""
+    """Greatest absolute value, without an array of them.
+
+    Examples
+    --------
+    >>> largest(np.array([1.0, -3.0])), largest(np.zeros(0))
+    (3.0, 0.0)
+    """
     return float(max(np.max(values, initial=0.0), -np.min(values, initial=0.0)))
 
 
@@ -211,6 +229,11 @@ def _diagonal(problem):
 def status_of(residual, *accuracies):
     """Name a residual and accuracies: "solved" up to 1e-10, "failed" for a residual above 1e-6,
     else "inaccurate".
+
+    Examples
+    --------
+    >>> status_of(1e-15, 1e-12), status_of(1e-15, 1e-8), status_of(1e-3)
+    ('solved', 'inaccurate', 'failed')
     """
     if max((residual, *accuracies)) <= SOLVED:
         return "solved"

@@ -28,6 +28,16 @@ def contact_operator(basis, symbol):
     Returns
     -------
     DenseContact or SpectralContact
+
+    Examples
+    --------
+    A constant is the first cosine:
+
+    >>> from signorini.solvers.transforms import midpoint_cosines
+    >>> basis = midpoint_cosines(4)
+    >>> S = contact_operator(basis, 1.0 + basis.eigenvalues)
+    >>> S.apply(np.ones(4)).round(12)
+    array([1., 1., 1., 1.])
     """
     spectral = SpectralContact(basis, symbol)
     if spectral.size > _DENSE_UP_TO:
@@ -93,6 +103,17 @@ class SpectralContact:
         ------
         SolverError
             If the residual stops falling before it is small.
+
+        Examples
+        --------
+        >>> from signorini.solvers.transforms import midpoint_cosines
+        >>> basis = midpoint_cosines(200)
+        >>> S, free = SpectralContact(basis, 1.0 + basis.eigenvalues), np.arange(200) < 150
+        >>> x = S.solve_free(free, np.ones(150))
+        >>> w = np.zeros(200)
+        >>> w[free] = x
+        >>> bool(np.abs(S.apply(w)[free] - 1.0).max() < 1e-12)
+        True
         """
         x = np.where(free, self._last, 0.0)
         full = np.zeros(self.size)

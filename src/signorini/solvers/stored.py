@@ -56,6 +56,14 @@ def stored(problem, solution, n, h):
     Returns
     -------
     StoredSolution
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene, solve
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> record = stored(problem, solve(problem), n=8, h=problem.h)
+    >>> record.element, record.n, record.dofs, record.status
+    ('P1', 8, 72, 'solved')
     """
     return StoredSolution(
         element=problem.element,
@@ -87,6 +95,17 @@ def write_solution(path, problem, solution, n, h):
     path : str or Path
     problem, solution, n, h
         See `stored`.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene, solve
+    >>> from tempfile import TemporaryDirectory
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_solution(f"{folder}/u.npz", problem, solve(problem), n=8, h=problem.h)
+    ...     again = read_solution(f"{folder}/u.npz")
+    >>> again.status, again.dofs
+    ('solved', 72)
     """
     parts = vars(stored(problem, solution, n, h))
     kept = {key: value for key, value in parts.items() if value is not _ABSENT.get(key, _KEPT)}

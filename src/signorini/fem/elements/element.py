@@ -46,18 +46,48 @@ class Element(ABC):
 
     @property
     def nodes_of_triangle(self):
-        """Barycentric coordinates of the local nodes, one in each column, shape (3, 3)."""
+        """Barycentric coordinates of the local nodes, one in each column, shape (3, 3).
+
+        Examples
+        --------
+        Midpoints of the facets, in each column:
+
+        >>> from signorini.fem.elements import find_element
+        >>> find_element("CR").nodes_of_triangle
+        array([[0.5, 0. , 0.5],
+               [0.5, 0.5, 0. ],
+               [0. , 0.5, 0.5]])
+        """
         return np.linalg.inv(self.basis)
 
     def shape(self, barycentric):
-        """Values of the local shape functions at points of barycentric coordinates, both (3, q)."""
+        """Values of the local shape functions at points of barycentric coordinates, both (3, q).
+
+        Examples
+        --------
+        All three shape functions are 1/3 at the centroid:
+
+        >>> from signorini.fem.elements import find_element
+        >>> find_element("CR").shape(np.full((3, 1), 1 / 3)).round(12).ravel()
+        array([0.33333333, 0.33333333, 0.33333333])
+        """
         return self.basis @ barycentric
 
     # Degrees of freedom on a mesh.
 
     @abstractmethod
     def size(self, mesh):
-        """Number of degrees of freedom."""
+        """Number of degrees of freedom.
+
+        Examples
+        --------
+        >>> from signorini.fem.elements import ELEMENTS
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> [element.size(mesh) for element in ELEMENTS.values()]
+        [9, 16]
+        """
 
     @abstractmethod
     def triangle_dofs(self, mesh):
@@ -76,6 +106,16 @@ class Element(ABC):
         -------
         ndarray, shape (3, nt)
             Unit of u.
+
+        Examples
+        --------
+        >>> from signorini.fem.elements import find_element
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> mesh_y = mesh.p[1]
+        >>> bool(np.array_equal(find_element("P1").vertex_values(mesh, mesh_y), mesh_y[mesh.t]))
+        True
         """
 
     @abstractmethod
@@ -91,6 +131,16 @@ class Element(ABC):
         -------
         ndarray, shape (2, k)
             Unit of length.
+
+        Examples
+        --------
+        >>> from signorini.fem.elements import find_element
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> find_element("CR").nodes(mesh, np.array([0, 1]))
+        array([[0.25, 0.  ],
+               [0.  , 0.25]])
         """
 
     @abstractmethod
@@ -118,6 +168,16 @@ class Element(ABC):
         -------
         ndarray of int, shape (k,)
             Increasing.
+
+        Examples
+        --------
+        >>> from signorini.fem.elements import find_element
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> find_element("CR").nodes(mesh, find_element("CR").boundary_dofs(mesh, "contact"))
+        array([[0.25, 0.75],
+               [0.  , 0.  ]])
         """
 
     @abstractmethod
@@ -133,6 +193,15 @@ class Element(ABC):
         -------
         ndarray, shape (ndof,)
             Unit of length; 0 for dofs off that part.
+
+        Examples
+        --------
+        >>> from signorini.fem.elements import find_element
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> find_element("P1").boundary_lengths(mesh, "contact")[:3]
+        array([0.25, 0.5 , 0.25])
         """
 
     @abstractmethod
@@ -222,6 +291,15 @@ def facets_of(mesh, label):
     ends : ndarray of int, shape (2, k)
         Their end vertices.
     lengths : ndarray, shape (k,)
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> facets_of(mesh, "contact")
+    (array([[0, 1],
+           [1, 2]]), array([0.5, 0.5]))
     """
     ends = mesh.facet_ends(mesh.boundary_facets(label))
     start, end = (mesh.points(vertices) for vertices in ends)

@@ -35,17 +35,44 @@ class GridStencil(ABC):
 
     @abstractmethod
     def contact_fluxes(self, grid, u, contact):
-        """What flows into contact dofs; arguments and values as in `stencil.contact_fluxes`."""
+        """What flows into contact dofs, summed from differences.
+
+        Parameters
+        ----------
+        grid : Grid
+        u : ndarray, shape (ndof,)
+        contact : ndarray of int, shape (nc,)
+            Dofs on the contact part, increasing.
+
+        Returns
+        -------
+        force, fluxes, sizes : ndarray, shape (nc,)
+            As of `stencil.contact_fluxes`.
+        """
 
 
 def couplings(grid):
-    """The weights of differences along x and along y: hy/hx and hx/hy."""
+    """The weights of differences along x and along y: hy/hx and hx/hy.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> couplings(Grid(2, 2, (0.0, 0.0), (2.0, 1.0), "falling", labels))
+    (0.5, 2.0)
+    """
     hx, hy = grid.spacing
     return hy / hx, hx / hy
 
 
 def halved_ends(size):
-    """Ones, but a half at either end: what lies on the boundary has one cell beside it, not two."""
+    """Ones, but a half at either end: what lies on the boundary has one cell beside it, not two.
+
+    Examples
+    --------
+    >>> halved_ends(4)
+    array([0.5, 1. , 1. , 0.5])
+    """
     weights = np.ones(size)
     weights[[0, -1]] = 0.5
     return weights

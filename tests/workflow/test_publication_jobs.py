@@ -99,6 +99,28 @@ def test_two_scenes_with_articles_build_side_by_side(fresh):
     assert fresh.jobs() == {"macros": 1, "paper": 1}
 
 
+def test_two_scenes_may_call_different_figures_by_one_name(fresh):
+    """And two scenes whose names differ in a hyphen have each its own rule."""
+    names = {"one-a": "{surface: figure_1, l2: figure_2}", "one_a": "{l2: figure_1, table: t}"}
+    for scene, given in names.items():
+        fresh.write(f"config/scenes/{scene}.yaml", f"{SMALL}publication: {{names: {given}}}\n")
+    fresh.ask_for(*names)
+    assert fresh.jobs() == {
+        "mesh": 1,
+        "reference": 2,
+        "solve": 8,
+        "errors": 2,
+        "rates": 2,
+        "surface": 1,
+        "table": 1,
+        "named_table": 1,
+        "named_surface": 1,
+        "named_convergence_one__a": 1,
+        "named_convergence_one_a": 1,
+        "macros": 2,
+    }
+
+
 def test_a_check_without_an_article(fresh):
     publish(fresh, "  published: ../published/small.csv\n")
     table = "quantity,element,n,value,tolerance\nl2,CR,4,0.0,99\n"

@@ -9,7 +9,7 @@ use rule table as named_table with:
     log:
         "results/{scene}/logs/{table}.log",
     wildcard_constraints:
-        table=stems("table"),
+        table=stem_pattern(TABLE),
 
 
 use rule figure_surface as named_surface with:
@@ -21,7 +21,7 @@ use rule figure_surface as named_surface with:
     log:
         "results/{scene}/logs/{surface}.log",
     wildcard_constraints:
-        surface=stems("surface"),
+        surface=stem_pattern(SURFACE),
 
 
 # Convergence plots with names of their own, all of a scene in one job: importing Matplotlib takes longer than drawing.
@@ -30,14 +30,14 @@ for name in scenes_with_names():
 
         rule:
             name:
-                f"named_convergence_{name.replace('-', '_')}"
+                f"named_convergence_{name.replace('-', '__')}"
             input:
                 library("draw-convergence"),
                 scene=ancient(scene_file),
                 errors="results/{scene}/errors.csv",
                 rates="results/{scene}/rates.csv",
             output:
-                pdf=[f"results/{{scene,{name}}}/{stem}.pdf" for stem in norm_figures(name).values()],
+                pdf=[f"results/{{scene}}/{stem}.pdf" for stem in norm_figures(name).values()],
                 png=report(
                     [f"results/{{scene}}/{stem}.png" for stem in norm_figures(name).values()],
                     caption="../report/convergence.rst",
@@ -45,6 +45,8 @@ for name in scenes_with_names():
                 ),
             log:
                 "results/{scene}/logs/named_convergence.log",
+            wildcard_constraints:
+                scene=name,
             priority: 5
             params:
                 content=content("draw-convergence"),

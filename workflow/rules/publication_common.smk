@@ -125,15 +125,14 @@ def scenes_with_names():
     return {name: names_of(found.document) for name, found in sorted(asked.items())}
 
 
-def stems(*kinds):
-    """A pattern of the names that scenes give to files of these kinds; of nothing where there are none."""
-    found = {
-        stem
-        for names in scenes_with_names().values()
-        for kind, stem in names.items()
-        if kind in kinds and stem not in kinds
-    }
-    return "|".join(sorted(found)) or "(?!)"
+def stem_pattern(kind):
+    """A pattern of the name that each scene gives to files of a kind, in its own folder; of nothing where there are none.
+
+    Looking back at the folder keeps apart what two scenes call by one name.
+    """
+    named = {scene: names.get(kind, kind) for scene, names in scenes_with_names().items()}
+    found = [f"(?<=/{scene}/){stem}" for scene, stem in named.items() if stem != kind]
+    return "|".join(found) or "(?!)"
 
 
 def norm_figures(name):

@@ -64,8 +64,7 @@ def run(arguments):
 
 def _with_article(path, scene):
     """The scene with its section `publication`, and the article; path -> text."""
-    project = path.parent.absolute().parents[1]
-    article = Path(os.path.relpath(project / "paper" / f"{path.stem}.tex"))
+    article = Path(os.path.relpath(path.parent / f"../../paper/{path.stem}.tex"))
     scene = scene.replace(_SECTION, _SECTION.removeprefix("# "))
     scene = scene.replace(_MANUSCRIPT, f"  manuscript: ../../paper/{path.stem}.tex")
     text = _ARTICLE.read_text(encoding="utf-8").replace("NAME", path.stem)

@@ -31,10 +31,10 @@ FILES = {
     "errors": "errors.csv",
     "rates": "rates.csv",
     "outputs": "outputs.csv",
-    "contact_line": "contact_line.csv",
     "check": "check.csv",
     "effects": "effects.csv",
     "surface": "surface.npz",
+    "contact_line": "contact_line.csv",  # last, for it is long
 }
 
 

@@ -3,12 +3,10 @@
 import os
 import re
 
-from signorini.errors.norms import RATED
 from signorini.exceptions import SceneError
 from signorini.wording import nearest
 
 TABLE, SURFACE = "table", "surface"
-FIGURES = (SURFACE, *RATED)  # that can have a name
 # Names that other files of LaTeX have.
 TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory")
 _PLAIN = re.compile(r"[\w.+@ /-]+")

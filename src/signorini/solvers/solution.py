@@ -103,12 +103,13 @@ class Solution:
         -------
         Solution
         """
+        u = negated(self.u)
         return replace(
             self,
-            u=negated(self.u),
+            u=u,
             multiplier=negated(self.multiplier),
             constant=negated(self.constant),
-            deviation=negated(self.deviation),
+            deviation=u if self.deviation is self.u else negated(self.deviation),
             problem=problem,
         )
 

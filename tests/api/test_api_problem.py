@@ -120,6 +120,15 @@ def test_many_unknowns_on_a_refined_mesh_take_multigrid_by_themselves():
     assert signorini.solve(problem).method == "multigrid"
 
 
+@pytest.mark.parametrize("diagonal", ["alternating", "criss-cross"])
+def test_a_rectangle_of_another_pattern_is_refined_into_nested_levels(diagonal):
+    mesh = signorini.rectangle(4, diagonal=diagonal)
+    fine = signorini.problem(mesh.refined(), "P1", f=F, **CONDITIONS)
+    assert (fine.n, fine.h) == (8, 0.125)
+    assert fine.mesh.coarser().number_of_triangles == mesh.number_of_triangles
+    assert signorini.solve(fine).status == "solved"
+
+
 def test_two_materials_by_subdomain_and_by_function_are_the_same():
     mesh = signorini.triangulation(
         SQUARE, subdomains={"soft": lambda x, y: x < 0.5, "hard": lambda x, y: x > 0.5}

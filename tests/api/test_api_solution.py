@@ -128,6 +128,13 @@ def test_energy_and_contact_force_know_the_coefficient():
     assert pressed.resultant == pytest.approx(3.0)
 
 
+def test_a_solution_and_its_problem_are_shown_in_a_line():
+    solution = solved("P1")
+    assert repr(solution.problem) == "<Problem: P1, n = 8: 81 dofs, 9 in contact>"
+    shown = f"81 dofs, {solution.active.sum()} of 9 contact dofs bind>"
+    assert repr(solution) == f"<Solution: solved by fourier: {shown}"
+
+
 def test_a_solution_is_frozen():
     solution = solved()
     with pytest.raises(FrozenInstanceError):

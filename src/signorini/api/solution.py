@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution(solvers.Solution):
     """What was found, its proof, and what it tells.
 
@@ -25,6 +25,12 @@ class Solution(solvers.Solution):
     ``residual``, ``accuracy``, ``multiplier_accuracy`` and ``status``, the proof; ``iterations``,
     ``method`` and ``reason``; ``constant`` and ``deviation``; and the ``problem``.
     """
+
+    def __repr__(self) -> str:
+        return (
+            f"<Solution: {self.status} by {self.method}: {self.u.size} dofs, "
+            f"{self.active.sum()} of {self.active.size} contact dofs bind>"
+        )
 
     @property
     def points(self) -> Floats:

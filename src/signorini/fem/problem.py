@@ -21,7 +21,7 @@ from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Problem:
     """A discrete Signorini problem; equation (2.6) of the paper, or its conforming counterpart.
 
@@ -79,6 +79,12 @@ class Problem:
                 f"mesh: a {type(self.mesh).__name__} has no labelled boundary; "
                 "let signorini.problem(mesh, ...) make the problem, it takes most meshes"
             )
+
+    def __repr__(self):
+        level = "" if self.n is None else f", n = {self.n}"
+        return (
+            f"<Problem: {self.element}{level}: {self.b.size} dofs, {self.contact.size} in contact>"
+        )
 
     @property
     def finite_element(self):

@@ -29,7 +29,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Compare, and write the rows where asked to."""
+    """Compare, and write the rows where asked to.
+
+    Raises
+    ------
+    SceneError, SignoriniError, StorageError
+        If the table of published numbers is not valid, or a number was not computed.
+    """
     scene = scene_of(arguments.scene)
     published = list(read_published(arguments.published).values())
     declared = declared_keys(scene.document)

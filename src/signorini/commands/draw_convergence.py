@@ -30,7 +30,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Draw every figure."""
+    """Draw every figure.
+
+    Raises
+    ------
+    SignoriniError, StorageError
+        If the scene does not have a norm, or a table is missing or altered.
+    """
     scene = scene_of(arguments.scene)
     sections = scene.section("elements", "levels", "norms")
     errors = read_errors(arguments.errors, sections)

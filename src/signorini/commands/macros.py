@@ -34,7 +34,14 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """List all numbers that are there, or write the macros."""
+    """List all numbers that are there, or write the macros.
+
+    Raises
+    ------
+    SceneError, StorageError
+        If the scene has no publication, its manuscript asks for a number that is not there, or a
+        table is missing or altered.
+    """
     scene = scene_of(arguments.scene)
     folder = arguments.results or Path("results", scene.name)
     if not arguments.output:

@@ -30,7 +30,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Check that the parts are whole, and typeset."""
+    """Check that the parts are whole, and typeset.
+
+    Raises
+    ------
+    SignoriniError, StorageError
+        If LaTeX complains, or a part is missing or altered.
+    """
     parts = [file for path in arguments.parts for file in _files(Path(path))]
     for path in ([arguments.check] if arguments.check else []) + parts:
         read_sealed(path)

@@ -89,12 +89,40 @@ def tables_of(document):
 
 
 def tables_of_use(use, declared):
-    """The tables that may hold the number of a use."""
+    """The tables that may hold the number of a use.
+
+    Parameters
+    ----------
+    use : Use
+    declared : dict
+        As `keys.declared_keys` returns it.
+
+    Returns
+    -------
+    set of str
+        Of `keys.FILES`; empty where there is no such number.
+    """
     if not use.is_open:
         return {table_of(use.key, declared)} - {None}
     return {table for key, table in declared.items() if key.startswith(use.stem)}
 
 
 def published_of(section):
-    """The published numbers of a publication, a list; empty where it names no file."""
+    """The published numbers of a publication.
+
+    Parameters
+    ----------
+    section : dict
+        The section of that name of a scene.
+
+    Returns
+    -------
+    list of Published
+        Empty where it names no file.
+
+    Raises
+    ------
+    SceneError, StorageError
+        As `read_published`.
+    """
     return list(read_published(section["published"]).values()) if "published" in section else []

@@ -86,7 +86,21 @@ class Taken:
     name: str
 
     def found_in(self, names):
-        """The first of the names that LaTeX would take, or None."""
+        """The first of the names that LaTeX would take.
+
+        Parameters
+        ----------
+        names : container of str
+
+        Returns
+        -------
+        str or None
+
+        Examples
+        --------
+        >>> Taken("", "includegraphics", "figures/l2").found_in({"figures/l2.pdf"})
+        'figures/l2.pdf'
+        """
         endings = ("", *_ENDINGS.get(self.command, ()))
         return next((self.name + end for end in endings if self.name + end in names), None)
 

@@ -97,7 +97,25 @@ def _of_rates(scene, path):
 
 
 def slope_numbers(rows, kind):
-    """Slopes of every kind, and those of the scene's kind without saying which."""
+    """Slopes of every kind, and those of the scene's kind without saying which.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Of rates.csv.
+    kind : {"mean", "fit"}
+
+    Returns
+    -------
+    dict
+        Key -> slope as it stands in the row, dimensionless.
+
+    Examples
+    --------
+    >>> row = {"element": "CR", "norm": "l2", "kind": "mean", "slope": "2.1"}
+    >>> slope_numbers([row], "mean")
+    {'slope, l2, CR, mean': '2.1', 'slope, l2, CR': '2.1'}
+    """
     found = {}
     for row in rows:
         key = key_of(SLOPE, row["norm"], row["element"])

@@ -21,7 +21,7 @@ __version__ = "0.2.0"
 # nothing. Type checkers read `__init__.pyi`.
 _ROOMS = {
     "Mesh": "api.meshes",
-    "Problem": "fem.problem",
+    "Problem": "fem.discrete_problem",
     "Scene": "scene.scene",
     "SignoriniError": "exceptions",
     "Solution": "api.solution",

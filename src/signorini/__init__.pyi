@@ -9,7 +9,7 @@ from signorini.api.problem import problem as problem
 from signorini.api.solution import Solution as Solution
 from signorini.api.solve import solve as solve
 from signorini.exceptions import SignoriniError as SignoriniError
-from signorini.fem.problem import Problem as Problem
+from signorini.fem.discrete_problem import Problem as Problem
 from signorini.fem.problem import discretize as discretize
 from signorini.scene.read import load_scene as load_scene
 from signorini.scene.scene import Scene as Scene

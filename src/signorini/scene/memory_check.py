@@ -85,7 +85,7 @@ def _fourier_applies(statement, element, n):
         return False
     import numpy as np
 
-    from signorini.fem.problem import Problem
+    from signorini.fem.discrete_problem import Problem
     from signorini.solvers.fourier import why_not
 
     grid = statement.triangulations.level(n)

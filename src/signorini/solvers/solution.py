@@ -4,8 +4,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from signorini.fem.discrete_problem import Problem
 from signorini.fem.mirror import mirrored, negated
-from signorini.fem.problem import Problem
 from signorini.work import count
 
 # What a residual or an accuracy may be called, from the best name to the worst.

@@ -30,6 +30,11 @@ def test_a_number_is_written_once_for_each_form():
     assert "dofs" not in text
 
 
+def test_a_line_break_in_an_option_is_none():
+    text = macros([Use("", "l2, CR, 4", "digits=2,\n  notation=fixed")], NUMBERS)
+    assert r"\signorini@set{digits=2,notation=fixed|l2,CR,4}{0.000099}" in text
+
+
 def test_an_open_key_brings_all_that_it_can_be():
     text = macros([Use("", "l2, CR, #1", "digits=1")], NUMBERS | {"l2, CR, 8": "2e-05"})
     assert re.findall(r"@set\{(\S+?)\}\{", text) == ["digits=1|l2,CR,4", "digits=1|l2,CR,8"]

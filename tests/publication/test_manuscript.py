@@ -49,6 +49,25 @@ def test_files_of_its_folder_are_its_own_and_are_read_in_turn(project):
     assert others[4:] == ["other", "table", "figures/l2"]
 
 
+def test_pictures_are_looked_for_where_graphicspath_says(project):
+    scene, path = project.article(
+        r"\graphicspath{{figures/}{photos/}}\includegraphics{l2}\input{part}"
+    )
+    part = project.write("article/part.tex", r"\includegraphics{meadow}")
+    (project.folder / "article/photos").mkdir()
+    photo = project.write("article/photos/meadow.png", "x")
+    assert read_manuscript(path).files == (path, part, photo)
+    assert taken_files(scene.document) == ["macros.tex", "figures"]
+
+
+def test_a_file_above_the_folder_of_the_article_is_not_its_own(project):
+    _, path = project.article(r"\input{../secret}\includegraphics{/etc/hostname}")
+    project.write("secret.tex", "x")
+    found = read_manuscript(path)
+    assert found.files == (path,)
+    assert {"../secret", "/etc/hostname"} <= {entry.name for entry in found.others}
+
+
 def test_what_it_takes_in_is_what_is_built_for_it(project):
     scene, _ = project.article(
         r"\input{table}\includegraphics{figures/h1}\includegraphics{figures/l2}"

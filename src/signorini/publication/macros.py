@@ -95,4 +95,4 @@ def _asked(use, numbers):
 
 
 def _name(options, key):
-    return f"{options}|{key}".replace(" ", "")
+    return "".join(f"{options}|{key}".split())

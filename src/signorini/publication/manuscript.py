@@ -21,6 +21,7 @@ _TAKES = re.compile(
     r"|RequirePackage|documentclass|lstinputlisting|verbatiminput)(?![A-Za-z])\*?\s*"
     r"(?:\[[^]]*\]\s*)?\{([^{}]+)\}"
 )
+_FOLDERS = re.compile(r"\\graphicspath\s*\{((?:\s*\{[^{}]*\})+)\s*\}")
 # Command -> endings that it adds to a name without one.
 _ENDINGS = {
     "input": (".tex",),
@@ -79,11 +80,20 @@ class Taken:
         Of LaTeX, without backslash.
     name : str
         As it stands there.
+    folders : tuple of str, optional
+        Where LaTeX looks for it, first of all here.
     """
 
     place: str
     command: str
     name: str
+    folders: tuple = ("",)
+
+    @property
+    def candidates(self):
+        """The names that LaTeX tries, in their order."""
+        endings = ("", *_ENDINGS.get(self.command, ()))
+        return [f"{folder}{self.name}{end}" for folder in self.folders for end in endings]
 
     def found_in(self, names):
         """The first of the names that LaTeX would take.
@@ -101,8 +111,7 @@ class Taken:
         >>> Taken("", "includegraphics", "figures/l2").found_in({"figures/l2.pdf"})
         'figures/l2.pdf'
         """
-        endings = ("", *_ENDINGS.get(self.command, ()))
-        return next((self.name + end for end in endings if self.name + end in names), None)
+        return next((name for name in self.candidates if name in names), None)
 
     @property
     def is_own(self):
@@ -151,12 +160,13 @@ def read_manuscript(path):
     """
     path = Path(path)
     folder, files, uses, taken, others = path.parent, [path], [], [], []
-    waiting = [path]
+    waiting, pictures = [path], [""]
     while waiting:
         file = waiting.pop(0)
         text = _plain_text(file)
         uses += _uses(file, text)
-        for entry in _takes(file, text):
+        pictures += _picture_folders(text)
+        for entry in _takes(file, text, tuple(pictures)):
             taken.append(entry)
             own = _own_file(folder, entry)
             if own is None:
@@ -188,16 +198,25 @@ def _uses(path, text):
         yield Use(_place(path, text, found), tidy(found[2]), (found[1] or "").strip())
 
 
-def _takes(path, text):
+def _takes(path, text, pictures):
     """The files that a text names; those whose name a macro puts together are not known."""
     for found in _TAKES.finditer(text):
         for name in map(str.strip, found[2].split(",")):
             if name and not set("#\\") & set(name):
-                yield Taken(_place(path, text, found), found[1], name)
+                folders = pictures if found[1] == "includegraphics" else ("",)
+                yield Taken(_place(path, text, found), found[1], name, folders)
+
+
+def _picture_folders(text):
+    for found in _FOLDERS.finditer(text):
+        yield from re.findall(r"\{\s*([^{}]*?)\s*\}", found[1])
 
 
 def _own_file(folder, entry):
-    """The file of the manuscript's folder that LaTeX takes, or None."""
-    endings = ("", *_ENDINGS.get(entry.command, ()))
-    candidates = (folder / f"{entry.name}{ending}" for ending in endings)
-    return next((file for file in candidates if file.is_file()), None)
+    """The file in the manuscript's folder that LaTeX takes, or None."""
+    files = (folder / name for name in entry.candidates)
+    return next((file for file in files if file.is_file() and _is_within(file, folder)), None)
+
+
+def _is_within(file, folder):
+    return file.resolve().is_relative_to(folder.resolve())

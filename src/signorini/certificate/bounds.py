@@ -1,15 +1,17 @@
 """Bounds of what an element is off by, from an enclosure; docs/certificate.md proves each."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from signorini.certificate.bubbles import against_curls, against_gradients, minimise
-from signorini.certificate.enclosure import ball_radius, norm
+from signorini.certificate.enclosure import ball_radius, energy_norms, norm
 from signorini.certificate.energy import energy_interval
-from signorini.certificate.fields import Potential, flux_on, gradient_on
+from signorini.certificate.fields import Field, flow_on, flux_on, gradient_on
 from signorini.certificate.l2 import l2_bound
+from signorini.certificate.right_sides import broken_right_sides
 from signorini.fem.elements import find_element
+from signorini.solvers.dot import dot
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,13 +66,12 @@ def certify_p1(enclosure, u):
     Certificate
     """
     corners = enclosure.topology.mesh.corner_values(u)
-    own, equilibrium = Potential(corners), enclosure.equilibrium
-    distance, near = _distances(enclosure, own)
-    by_flux = _by_flux(enclosure, distance, u)
-    bubbles, residual = enclosure.bubbles, _residual(enclosure, own)
-    shown = _shown(enclosure, bubbles.inner, residual)
-    shares = (distance + equilibrium.oscillation) ** 2
-    return _certificate(enclosure, "P1", corners, near, by_flux, shown, shares)
+    own = _of_p1(enclosure, corners)
+    inner = enclosure.bubbles.inner
+    shown = _shown(enclosure, inner.x, inner.size, own.residual)
+    shares = (own.distance + enclosure.equilibrium.oscillation) ** 2
+    by_flux = _by_flux(enclosure, own.distance, enclosure.admissible.lift + own.moved)
+    return _certificate(enclosure, "P1", corners, own.middle, by_flux, shown, shares)
 
 
 def certify_cr(enclosure, u):
@@ -86,28 +87,28 @@ def certify_cr(enclosure, u):
     -------
     Certificate
     """
-    topology, bubbles = enclosure.topology, enclosure.bubbles
-    corners = find_element("CR").vertex_values(topology.mesh, u)
-    own = Potential(corners)
-    near = _to_middle(enclosure, own)
-    fitted, wanted = _fitted(enclosure, corners)
-    by_fit, shares = _by_fit(enclosure, own, fitted)
-    shown = _shown(enclosure, bubbles.inner - fitted, bubbles.residual - wanted)
-    broken = against_curls(topology, lambda piece: gradient_on(piece, own))
-    curls = np.where(bubbles.free & bubbles.free_curls, bubbles.curls, 0.0)
-    size = bubbles.curl_matrix.size(curls)
-    shown = float(np.hypot(shown, curls @ broken / size)) if size else shown
+    bubbles = enclosure.bubbles
+    corners = find_element("CR").vertex_values(enclosure.topology.mesh, u)
+    flow, broken = broken_right_sides(enclosure.topology, corners)
+    fitted = _fitted(enclosure, flow - bubbles.flow)
+    near, by_fit, shares = _by_fit(enclosure, corners, fitted)
+    rest = bubbles.inner.x - fitted
+    residual = bubbles.residual + bubbles.flow - flow
+    shown = _shown(enclosure, rest, bubbles.matrix.size(rest), residual)
+    within = np.where(bubbles.free & bubbles.free_curls, bubbles.curls.x, 0.0)
+    size = bubbles.curl_matrix.size(within)
+    shown = float(np.hypot(shown, dot(within, broken) / size)) if size else shown
     return _certificate(enclosure, "CR", corners, near, by_fit, shown, shares)
 
 
-def _certificate(enclosure, element, corners, near, upper, shown, shares):
-    """Put together: the ball serves every element."""
-    rest, contact = 0.5 * enclosure.admissible.rest, enclosure.equilibrium.contact
-    by_ball = norm(near + rest) + enclosure.radius
-    apart = norm(near) - norm(rest) - enclosure.radius
+def _certificate(enclosure, element, corners, near, own_bound, shown, shares):
+    """Put together; the ball serves every element."""
+    half, contact = 0.5 * enclosure.admissible.rest, enclosure.equilibrium.contact
+    by_ball = norm(near + half) + enclosure.radius
+    apart = norm(near) - norm(half) - enclosure.radius
     pressed = enclosure.equilibrium.force * enclosure.admissible.above.mean(axis=0)
     np.add.at(shares, contact.cells, 2.0 * pressed)
-    upper = float(min(upper, by_ball))
+    upper = float(min(own_bound, by_ball))
     dual, primal = energy_interval(enclosure)
     return Certificate(
         element=element,
@@ -119,107 +120,89 @@ def _certificate(enclosure, element, corners, near, upper, shown, shares):
         primal=primal,
         dual=dual,
         l2=l2_bound(enclosure, corners),
-        steps=enclosure.bubbles.steps,
+        steps=enclosure.bubbles.inner.steps + enclosure.bubbles.curls.steps,
         contributions=shares,
     )
 
 
-def _by_flux(enclosure, distance, u):
+def _by_flux(enclosure, distance, lifted):
     """P1's own bound: E <= d/2 + (d^2/4 + c + ...)^(1/2) with d = |grad u_h - tau'/k|.
 
     What takes u_h to the admissible v + w counts with |grad u - tau'/k|.
     """
     oscillation, slack = enclosure.equilibrium.oscillation, enclosure.slack
-    moved = enclosure.admissible.lift + _moved(enclosure, u)
-    far = 0.5 * norm(enclosure.distance) + enclosure.radius + slack
-    extra = enclosure.contact + far * norm(moved) + float(oscillation @ moved)
+    far = enclosure.error_of_potential + slack
+    extra = enclosure.contact + far * norm(lifted) + float(dot(oscillation, lifted))
     half = 0.5 * (norm(distance + oscillation) + slack)
     return half + np.sqrt(half**2 + extra)
 
 
-def _by_fit(enclosure, own, fitted):
+def _fitted(enclosure, wanted):
+    """Bubbles that bring grad v near to CR's gradient."""
+    bubbles, given = enclosure.bubbles, enclosure.admissible.bubbles
+    right = wanted - bubbles.matrix.apply(given) if given.any() else wanted
+    return bubbles.matrix.minimise(right, bubbles.free).x
+
+
+def _by_fit(enclosure, corners, fitted):
     """CR's own bound: the ball of v with bubbles fitted to u_CR, and of tau without its own."""
     topology, equilibrium = enclosure.topology, enclosure.equilibrium
-    admissible = enclosure.admissible
-    corners = topology.mesh.corner_values(admissible.vertices)
-    potential = Potential(corners, admissible.bubbles + fitted)
-    distance, near = np.empty((2, topology.mesh.number_of_triangles))
+    admissible, raw = enclosure.admissible, equilibrium.flux
+    potential = enclosure.potential.with_bubbles(admissible.bubbles + fitted)
+    distance, near, to_middle = np.empty((3, topology.count))
     for piece in topology.pieces():
-        gradient = gradient_on(piece, potential)
-        flux = flux_on(piece, equilibrium.flux).times(1.0 / piece.coefficient)
-        middle = gradient.plus(1.0, flux).times(0.5)
-        distance[piece.cells] = _size(piece, gradient - flux)
-        near[piece.cells] = _size(piece, middle - gradient_on(piece, own))
+        cells, own = piece.cells, flow_on(piece, corners[:, piece.cells])
+        own, gradient, flux = Field(own, own), gradient_on(piece, potential), flux_on(piece, raw)
+        distance[cells] = energy_norms(piece, gradient - flux)
+        near[cells] = energy_norms(piece, (gradient + flux).times(0.5) - own)
+        to_middle[cells] = energy_norms(piece, enclosure.middle_on(piece) - own)
     distance += admissible.rest
     near += 0.5 * admissible.rest
     oscillation, slack = equilibrium.oscillation, enclosure.slack
     radius = ball_radius(distance, oscillation, enclosure.contact, slack)
-    return norm(near) + radius, (near + 0.5 * (distance + oscillation)) ** 2
+    return to_middle, norm(near) + radius, (near + 0.5 * (distance + oscillation)) ** 2
 
 
-def _fitted(enclosure, corners):
-    """Bubbles that bring grad v near to a broken gradient, and what they were found from."""
-    topology, bubbles = enclosure.topology, enclosure.bubbles
-    given = enclosure.admissible.bubbles
-    away = Potential(corners - topology.mesh.corner_values(enclosure.admissible.vertices))
-    wanted = against_gradients(topology, lambda piece: gradient_on(piece, away))
-    right = wanted - bubbles.matrix.apply(given) if given.any() else wanted
-    fitted, _ = minimise(bubbles.matrix, right, bubbles.free)
-    return fitted, wanted
-
-
-def _shown(enclosure, x, residual):
+def _shown(enclosure, x, size, residual):
     """What the error is at least: |residual(beta)| / |grad beta| for the bubbles beta of x."""
-    size = enclosure.bubbles.matrix.size(x)
     if not size:
         return 0.0
-    return max(float(x @ residual) / size - enclosure.oscillation - enclosure.slack, 0.0)
+    return max(float(dot(x, residual)) / size - enclosure.oscillation - enclosure.slack, 0.0)
 
 
-def _residual(enclosure, own):
-    """int (tau' - k grad u_h) . grad b_i, which int k grad(u - u_h) . grad b_i is but for osc."""
+class _OfP1(NamedTuple):
+    """What the bounds of a P1 function u_h rest on, each but the last of shape (nt,).
+
+    Attributes
+    ----------
+    distance, middle : ndarray
+        |grad u_h - tau'/k|_T, and |grad u_h - m|_T without the lift.
+    moved : ndarray
+        |grad(v - u_h)|_T of what setting values at vertices moved.
+    residual : ndarray, shape (nf,)
+        int (tau' - k grad u_h) . grad b_i.
+    """
+
+    distance: np.ndarray
+    middle: np.ndarray
+    moved: np.ndarray
+    residual: np.ndarray
+
+
+def _of_p1(enclosure, corners):
+    """`_OfP1` of a function given at the corners: mostly that of v, for nothing was moved."""
+    topology, bubbles = enclosure.topology, enclosure.bubbles
+    known = enclosure.distances
     if not enclosure.admissible.moved:
-        return enclosure.bubbles.residual
-
-    def difference(piece):
-        flux = flux_on(piece, enclosure.flux).times(1.0 / piece.coefficient)
-        return flux - gradient_on(piece, own)
-
-    return against_gradients(enclosure.topology, difference)
-
-
-def _distances(enclosure, own):
-    """|grad u_h - tau'/k|_T and |grad u_h - m|_T, without lifts, both of shape (nt,)."""
-    topology = enclosure.topology
-    distance, near = np.empty((2, topology.mesh.number_of_triangles))
+        return _OfP1(known.plain, known.middle, np.zeros(topology.count), bubbles.residual)
+    distance, middle, moved = np.empty((3, topology.count))
     for piece in topology.pieces():
-        gradient = gradient_on(piece, own)
-        flux = flux_on(piece, enclosure.flux).times(1.0 / piece.coefficient)
-        distance[piece.cells] = _size(piece, gradient - flux)
-        near[piece.cells] = _size(piece, enclosure.middle_on(piece) - gradient)
-    return distance, near
-
-
-def _to_middle(enclosure, own):
-    """|grad u_h - m|_T without the lift, shape (nt,)."""
-    near = np.empty(enclosure.topology.mesh.number_of_triangles)
-    for piece in enclosure.topology.pieces():
-        near[piece.cells] = _size(piece, enclosure.middle_on(piece) - gradient_on(piece, own))
-    return near
-
-
-def _moved(enclosure, u):
-    """|grad (v - u_h)|_T of what setting values at vertices moved; mostly nothing."""
-    moved = enclosure.admissible.vertices - u
-    topology = enclosure.topology
-    sizes = np.zeros(topology.mesh.number_of_triangles)
-    if moved.any():
-        potential = Potential(topology.mesh.corner_values(moved))
-        for piece in topology.pieces():
-            sizes[piece.cells] = _size(piece, gradient_on(piece, potential))
-    return sizes
-
-
-def _size(piece, field):
-    """The energy norm of a field on each triangle."""
-    return np.sqrt(piece.coefficient * field.squared(piece.area))
+        cells = piece.cells
+        flow = flow_on(piece, corners[:, cells])
+        shift = flow_on(piece, enclosure.potential.corners[:, cells]) - flow
+        own = Field(flow, flow)
+        distance[cells] = energy_norms(piece, own - flux_on(piece, enclosure.flux))
+        middle[cells] = energy_norms(piece, enclosure.middle_on(piece) - own)
+        moved[cells] = energy_norms(piece, Field(shift, shift))
+    flow, _ = broken_right_sides(topology, corners)
+    return _OfP1(distance, middle, moved, bubbles.residual + bubbles.flow - flow)

@@ -1,29 +1,48 @@
 """Bubbles that bring a gradient and a flux nearer to each other: a few steps of CG.
 
-For the bubbles b_i = 4 lambda_i lambda_(i+1) of the facets of a triangle, with k_i = -cot(angle
-opposite to facet i) / 2,
+For the bubbles b_i = 4 lambda_i lambda_(i+1) of the facets of a triangle, with kappa_i as in
+`fields`,
 
-    int grad b_i . grad b_i = -8/3 (k_0 + k_1 + k_2),   int grad b_i . grad b_j = 8/3 k_l,
+    int grad b_i . grad b_i = -8/3 (kappa_0 + kappa_1 + kappa_2),
+    int grad b_i . grad b_j = 8/3 kappa_l,
 
-where l is the third facet; the same holds for their curls. CR's stiffness matrix A has 4 k_l off
-the diagonal, so that the matrix of the bubbles is 2/3 A plus the diagonal of -8/3 sum k_i over the
-triangles beside facet i.
+where l is the third facet; the same holds for their curls. CR's stiffness matrix A has 4 kappa_l
+off the diagonal, so that the matrix of the bubbles is 2/3 A plus the diagonal of -8/3 sum kappa_i
+over the triangles beside facet i.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from signorini.certificate.pieces import LAST, NEXT
 from signorini.fem.elements import find_element
-from signorini.fem.stencil import apply_stiffness, diagonal
+from signorini.fem.elements.grid_stencil import couplings, halved_ends
 from signorini.fem.stiffness import assemble_stiffness, facet_couplings
 from signorini.mesh.grid import Grid
+from signorini.solvers.dot import dot
 
-TOLERANCE = 1e-3  # of the residual in the norm of the preconditioner: a thousandth of the gain
+TOLERANCE = 1e-2  # of the residual in the norm of the preconditioner: of the gain its square
 MOST_STEPS = 12
 
 
+class Found(NamedTuple):
+    """Bubbles x near the solution of B x = r.
+
+    Attributes
+    ----------
+    x : ndarray, shape (nf,)
+    size : float
+        Their energy norm, (x . B x)^(1/2).
+    steps : int
+    """
+
+    x: np.ndarray
+    size: float
+    steps: int
+
+
 class BubbleMatrix:
-    """The matrix of the bubbles, or of their curls, under a weight on each triangle.
+    """The matrix B of the bubbles, or of their curls, under a weight on each triangle.
 
     Parameters
     ----------
@@ -35,101 +54,126 @@ class BubbleMatrix:
     """
 
     def __init__(self, mesh, weight=None, A=None):
-        self._mesh, self._element = mesh, find_element("CR")
-        self._grid = isinstance(mesh, Grid) and weight is None
-        if not self._grid and A is None:
-            A = assemble_stiffness(mesh, self._element, weight)
-        self._A = A
-        couplings = -8.0 / 3.0 * facet_couplings(mesh, weight)
-        facets, size = mesh.t2f.ravel(), mesh.number_of_facets
-        self._extra = np.bincount(facets, couplings.ravel(), minlength=size)
-        own = diagonal(mesh, self._element) if self._grid else A.diagonal()
-        self.diagonal = own * (2.0 / 3.0) + self._extra
+        on_grid = isinstance(mesh, Grid) and weight is None
+        self._form = _OnGrid(mesh) if on_grid else _Assembled(mesh, weight, A)
 
     def apply(self, x):
-        """The matrix times a vector over the facets."""
-        product = apply_stiffness(self._mesh, self._element, x) if self._grid else self._A @ x
+        """B times a vector over the facets."""
+        form = self._form
+        return form.back(form.apply(form.sorted(x)))
+
+    def size(self, x):
+        """The energy norm of the bubbles with factors x."""
+        x = self._form.sorted(x)
+        return float(np.sqrt(max(dot(x, self._form.apply(x)), 0.0)))
+
+    def minimise(self, right, free):
+        """x with B x near `right` on the free facets, zero on the others.
+
+        Conjugate gradients with the diagonal for a preconditioner. Any x will do for a bound; a
+        better one only makes it smaller.
+
+        Parameters
+        ----------
+        right : ndarray, shape (nf,)
+        free : ndarray of bool, shape (nf,)
+
+        Returns
+        -------
+        Found
+        """
+        form = self._form
+        residual = form.sorted(np.where(free, right, 0.0))
+        inverse = np.divide(form.sorted(free.astype(float)), form.diagonal)
+        x, direction = np.zeros_like(residual), inverse * residual
+        size = first = dot(residual, direction)
+        gained, step = 0.0, 0
+        while size > TOLERANCE**2 * first and step < MOST_STEPS:
+            product = form.apply(direction)
+            length = size / dot(direction, product)
+            gained += length * size  # directions are orthogonal in B: their energies add up
+            product *= length
+            residual -= product
+            x += np.multiply(direction, length, out=product)
+            scaled = np.multiply(inverse, residual, out=product)
+            size, before = dot(residual, scaled), size
+            direction *= size / before
+            direction += scaled
+            step += 1
+        return Found(form.back(x), float(np.sqrt(gained)), step)
+
+
+class _Assembled:
+    """B on any mesh, through the assembled matrix of CR."""
+
+    def __init__(self, mesh, weight, A):
+        self._A = assemble_stiffness(mesh, find_element("CR"), weight) if A is None else A
+        kappa = -8.0 / 3.0 * facet_couplings(mesh, weight)
+        sums = np.broadcast_to(kappa.sum(axis=0), kappa.shape)
+        facets, size = mesh.t2f.ravel(), mesh.number_of_facets
+        self.diagonal = np.bincount(facets, sums.ravel(), minlength=size)
+        self._extra = self.diagonal - self._A.diagonal() * (2.0 / 3.0)
+
+    def apply(self, x):
+        product = self._A @ x
         product *= 2.0 / 3.0
         product += self._extra * x
         return product
 
-    def size(self, x):
-        """The energy norm of the bubbles with factors x."""
-        return float(np.sqrt(max(x @ self.apply(x), 0.0)))
+    def sorted(self, x):
+        return x
+
+    def back(self, x):
+        return x
 
 
-def minimise(matrix, right, free):
-    """x with `matrix` x near `right` on the free facets, zero on the others.
+class _OnGrid:
+    """B on a grid, for vectors sorted by direction: horizontal edges, vertical ones, diagonals.
 
-    Conjugate gradients with the diagonal for a preconditioner. Any x will do for a bound; a better
-    one only makes it smaller.
-
-    Parameters
-    ----------
-    matrix : BubbleMatrix
-    right : ndarray, shape (nf,)
-    free : ndarray of bool, shape (nf,)
-
-    Returns
-    -------
-    x : ndarray, shape (nf,)
-    steps : int
+    Opposite to the right angle kappa is 0, so that an edge along an axis couples with the diagonals
+    of the cells beside it alone.
     """
-    inverse = np.where(free, 1.0 / matrix.diagonal, 0.0)
-    x, residual = np.zeros_like(right), np.where(free, right, 0.0)
-    direction = inverse * residual
-    size = first = residual @ direction
-    for step in range(MOST_STEPS):
-        if not size > TOLERANCE**2 * first:
-            return x, step
-        product = matrix.apply(direction)
-        length = size / (direction @ product)
-        x += length * direction
-        residual -= length * product
-        residual *= free
-        scaled = inverse * residual
-        size, before = residual @ scaled, size
-        direction *= size / before
-        direction += scaled
-    return x, MOST_STEPS
+
+    def __init__(self, grid):
+        self._grid = grid
+        self._kx, self._ky = (4.0 / 3.0 * k for k in couplings(grid))
+        whole = 2.0 * (self._kx + self._ky)
+        nx, ny = grid.nx, grid.ny
+        self._h = np.repeat(whole * halved_ends(ny + 1)[:, None], nx, axis=1)
+        self._v = np.repeat(whole * halved_ends(nx + 1)[None], ny, axis=0)
+        self.diagonal = np.concatenate([self._h.ravel(), self._v.ravel(), np.full(nx * ny, whole)])
+
+    def apply(self, x):
+        product = self.diagonal * x
+        h, v, d = self._parts(x)
+        own_h, own_v, own_d = self._parts(product)
+        for y, diagonals in ((h, self._ky * d), (v, self._kx * d)):
+            own = own_h if y is h else own_v
+            first, second = _beside(own, y is h)
+            first -= diagonals
+            second -= diagonals
+        for y, k in ((h, self._ky), (v, self._kx)):
+            first, second = _beside(y, y is h)
+            sums = first + second
+            sums *= k
+            own_d -= sums
+        return product
+
+    def _parts(self, x):
+        """Views of the edges of each direction."""
+        nx, ny = self._grid.nx, self._grid.ny
+        h, v = nx * (ny + 1), (nx + 1) * ny
+        shapes = (ny + 1, nx), (ny, nx + 1), (ny, nx)
+        parts = x[:h], x[h : h + v], x[h + v :]
+        return tuple(part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
+
+    def sorted(self, x):
+        return np.concatenate([part.ravel() for part in self._grid.split_edges(x)])
+
+    def back(self, x):
+        return self._grid.join_edges(*self._parts(x))
 
 
-def against_curls(topology, field_on):
-    """int field . curl b_i for the bubble of each facet.
-
-    Parameters
-    ----------
-    topology : Topology
-    field_on : callable
-        From a `Piece` to a `Field`.
-
-    Returns
-    -------
-    ndarray, shape (nf,)
-    """
-    return _against(topology, field_on, _curl_products)
-
-
-def against_gradients(topology, field_on):
-    """int k field . grad b_i for the bubble of each facet; as `against_curls`."""
-    return _against(topology, field_on, _gradient_products)
-
-
-def _against(topology, field_on, products):
-    found = np.empty((3, topology.mesh.number_of_triangles))
-    for piece in topology.pieces():
-        found[:, piece.cells] = products(piece, field_on(piece).moments())
-    return topology.sums_over_facets(found)
-
-
-def _curl_products(piece, moments):
-    """curl b_i = 4 (lambda_i e_(i+2) + lambda_(i+1) e_(i+1)) / (twice the signed area)."""
-    here = (moments * piece.edges[LAST]).sum(axis=1)
-    there = (moments[NEXT] * piece.edges[NEXT]).sum(axis=1)
-    return 2.0 * piece.sense * (here + there)
-
-
-def _gradient_products(piece, moments):
-    """A gradient is its curl turned by a quarter."""
-    turned = np.stack([moments[:, 1], -moments[:, 0]], axis=1)
-    return piece.coefficient * _curl_products(piece, turned)
+def _beside(edges, horizontal):
+    """Views of the edges before and after each cell: below and above it, or left and right."""
+    return (edges[:-1], edges[1:]) if horizontal else (edges[:, :-1], edges[:, 1:])

@@ -1,16 +1,19 @@
 """A function and a flux between which the solution lies: the ball of Prager and Synge."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from signorini.certificate.admissible import Admissible, make_admissible
-from signorini.certificate.bubbles import BubbleMatrix, against_curls, against_gradients, minimise
+from signorini.certificate.bubbles import BubbleMatrix, Found
 from signorini.certificate.constants import friedrichs_constant
 from signorini.certificate.equilibrium import Equilibrium, equilibrate
-from signorini.certificate.fields import Flux, Potential, flux_on, gradient_on
+from signorini.certificate.fields import Field, Flux, Potential, flow_on, flux_on, gradient_on
 from signorini.certificate.pieces import Topology
+from signorini.certificate.right_sides import right_sides
 from signorini.fem.data import Data
+from signorini.solvers.dot import dot
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,10 +34,9 @@ class Enclosure:
         v'; w' is what is left of the lift w.
     flux : Flux
         tau'.
-    distance : ndarray, shape (nt,)
-        |grad(v' + w') - tau' / k|_T.
+    distances : Distances
     contact : float
-        The contact term <tau'.n, v' + w' - alpha>.
+        The contact term <tau'.n - s, v' + w' - alpha>.
     slack : float
         What the rounding of the equilibrium adds to an energy norm.
     radius : float
@@ -50,7 +52,7 @@ class Enclosure:
     admissible: Admissible
     potential: Potential
     flux: Flux
-    distance: np.ndarray
+    distances: "Distances"
     contact: float
     slack: float
     radius: float
@@ -63,52 +65,71 @@ class Enclosure:
         return norm(self.equilibrium.oscillation)
 
     @property
-    def reach(self):
-        """A bound of |grad(v' + w' - v)|."""
-        bubbles = self.potential.bubbles
-        return self.bubbles.matrix.size(bubbles) + norm(self.admissible.rest)
-
-    @property
     def gap(self):
         """J(v' + w') - D(tau') for the affine part of the load: G of the theorem."""
-        return 0.5 * norm(self.distance) ** 2 + self.contact
+        return 0.5 * norm(self.distances.pair) ** 2 + self.contact
 
     @property
     def error_of_potential(self):
-        """A bound of |grad(v' + w' - u)|."""
-        return 0.5 * norm(self.distance) + self.radius
+        """A bound of |grad(v' + w' - u)|, and of |grad u - tau'/k|."""
+        return 0.5 * norm(self.distances.pair) + self.radius
+
+    @property
+    def reach(self):
+        """A bound of |grad(v' + w' - v)|."""
+        given = self.admissible.bubbles.any()
+        inner = self.bubbles.inner.size
+        size = self.bubbles.matrix.size(self.potential.bubbles) if given else inner
+        return size + norm(self.admissible.rest)
 
     def middle_on(self, piece):
-        """The mean of grad v' and tau' / k on a piece, a `Field`: m without the lift."""
-        gradient = gradient_on(piece, self.potential)
-        return gradient.plus(1.0 / piece.coefficient, flux_on(piece, self.flux)).times(0.5)
+        """k times the mean of grad v' and tau' / k on a piece, a `Field`: m without the lift."""
+        return (gradient_on(piece, self.potential) + flux_on(piece, self.flux)).times(0.5)
 
 
-@dataclass(frozen=True, eq=False)
-class Bubbles:
+class Bubbles(NamedTuple):
     """The bubbles of an enclosure, and what they were found from.
 
     Attributes
     ----------
-    inner, curls : ndarray, shape (nf,)
-        Factors of the bubbles of v' and of tau' that are not given by the data.
+    inner, curls : Found
+        Those of v' and of tau' that are not given by the data.
     residual : ndarray, shape (nf,)
-        int (tau' - k grad v) . grad b_i.
+        int (tau' - k grad v) . grad b_i; not on Dirichlet and contact facets.
+    flow : ndarray, shape (nf,)
+        int k grad v . grad b_i.
     matrix, curl_matrix : BubbleMatrix
     free, free_curls : ndarray of bool, shape (nf,)
         Facets whose bubbles are not given by the data.
-    steps : int
-        Steps of conjugate gradients.
     """
 
-    inner: np.ndarray
-    curls: np.ndarray
+    inner: Found
+    curls: Found
     residual: np.ndarray
+    flow: np.ndarray
     matrix: BubbleMatrix
     curl_matrix: BubbleMatrix
     free: np.ndarray
     free_curls: np.ndarray
-    steps: int
+
+
+class Distances(NamedTuple):
+    """Energy norms on each triangle, all of shape (nt,).
+
+    Attributes
+    ----------
+    pair : ndarray
+        |grad(v' + w') - tau' / k|_T.
+    plain, middle : ndarray
+        |grad v - tau' / k|_T and |grad v - m|_T, m without the lift.
+    flux : float
+        The norm of tau' over the body.
+    """
+
+    pair: np.ndarray
+    plain: np.ndarray
+    middle: np.ndarray
+    flux: float
 
 
 def enclose(topology, data, rule, u_p1, u_cr, A=None):
@@ -142,13 +163,13 @@ def enclose(topology, data, rule, u_p1, u_cr, A=None):
     admissible = make_admissible(topology, data, u_p1, equilibrium)
     v = Potential(topology.mesh.corner_values(admissible.vertices))
     bubbles = _find_bubbles(topology, equilibrium, admissible, v, A)
-    flux = equilibrium.flux.with_bubbles(equilibrium.flux.bubbles + bubbles.curls)
-    potential = v.with_bubbles(admissible.bubbles + bubbles.inner)
-    distance = _distance(topology, potential, flux) + admissible.rest
+    raw = equilibrium.flux
+    flux = raw.with_bubbles(raw.bubbles + bubbles.curls.x)
+    potential = v.with_bubbles(admissible.bubbles + bubbles.inner.x)
+    distances = _distances(topology, potential, flux, admissible.rest)
     constant = friedrichs_constant(topology.mesh) / np.sqrt(topology.least_coefficient)
     slack = constant * equilibrium.imbalance
     contact = contact_term(equilibrium, admissible)
-    radius = ball_radius(distance, equilibrium.oscillation, contact, slack)
     return Enclosure(
         topology=topology,
         data=data,
@@ -156,10 +177,10 @@ def enclose(topology, data, rule, u_p1, u_cr, A=None):
         admissible=admissible,
         potential=potential,
         flux=flux,
-        distance=distance,
+        distances=distances,
         contact=contact,
         slack=slack,
-        radius=radius,
+        radius=ball_radius(distances.pair, equilibrium.oscillation, contact, slack),
         friedrichs=constant,
         bubbles=bubbles,
     )
@@ -194,11 +215,11 @@ def contact_term(equilibrium, admissible):
 
 def norm(values):
     """The Euclidean norm of a vector."""
-    return float(np.sqrt(np.dot(values, values)))
+    return float(np.sqrt(dot(values, values)))
 
 
 def _find_bubbles(topology, equilibrium, admissible, v, A):
-    mesh, k, raw = topology.mesh, topology.coefficient, equilibrium.flux
+    mesh, k = topology.mesh, topology.coefficient
     free = np.ones(mesh.number_of_facets, dtype=bool)
     free[equilibrium.contact.facets] = False
     free_curls = free.copy()
@@ -206,31 +227,35 @@ def _find_bubbles(topology, equilibrium, admissible, v, A):
     free[equilibrium.dirichlet.facets] = False
     matrix = BubbleMatrix(mesh, k, A)
     curl_matrix = matrix if k is None else BubbleMatrix(mesh, 1.0 / k)
-
-    def short_of(flux, sign):
-        def difference(piece):
-            inverse = 1.0 / piece.coefficient
-            gradient = gradient_on(piece, v)
-            return gradient.plus(-inverse, flux_on(piece, flux)).times(sign)
-
-        return difference
-
-    right = against_curls(topology, short_of(raw, 1.0))
-    curls, curl_steps = minimise(curl_matrix, right, free_curls)
-    flux = raw.with_bubbles(raw.bubbles + curls)
-    residual = against_gradients(topology, short_of(flux, -1.0))
-    given = admissible.bubbles
+    sides = right_sides(topology, v.corners, equilibrium)
+    residual, given = sides.load - sides.flow, admissible.bubbles
     right = residual - matrix.apply(given) if given.any() else residual
-    inner, steps = minimise(matrix, right, free)
     return Bubbles(
-        inner, curls, residual, matrix, curl_matrix, free, free_curls, steps + curl_steps
+        inner=matrix.minimise(right, free),
+        curls=curl_matrix.minimise(sides.curls, free_curls),
+        residual=residual,
+        flow=sides.flow,
+        matrix=matrix,
+        curl_matrix=curl_matrix,
+        free=free,
+        free_curls=free_curls,
     )
 
 
-def _distance(topology, potential, flux):
-    distance = np.empty(topology.mesh.number_of_triangles)
+def _distances(topology, potential, flux, rest):
+    pair, plain, middle = np.empty((3, topology.count))
+    square = 0.0
     for piece in topology.pieces():
-        k = piece.coefficient
-        field = gradient_on(piece, potential).plus(-1.0 / k, flux_on(piece, flux))
-        distance[piece.cells] = np.sqrt(k * field.squared(piece.area))
-    return distance
+        cells, v = piece.cells, flow_on(piece, potential.corners[:, piece.cells])
+        own, through = gradient_on(piece, potential), flux_on(piece, flux)
+        short = Field(v, v) - through
+        pair[cells] = energy_norms(piece, own - through)
+        plain[cells] = energy_norms(piece, short)
+        middle[cells] = energy_norms(piece, Field(v, v) - (own + through).times(0.5))
+        square += float((through.squared(piece) / piece.coefficient).sum())
+    return Distances(pair + rest, plain, middle, square**0.5)
+
+
+def energy_norms(piece, field):
+    """The energy norm of k times a gradient, or of a flux, on each triangle of a piece, (m,)."""
+    return np.sqrt(field.squared(piece) / piece.coefficient)

@@ -32,6 +32,8 @@ class Equilibrium:
     ----------
     flux : Flux
         Its normal component is affine on Neumann and contact facets.
+    moments : ndarray, shape (3, nt)
+        Of the load, see `loads.TriangleLoads`.
     force : ndarray, shape (m,)
         Flux through each contact facet beyond the threshold, not negative.
     oscillation : ndarray, shape (nt,)
@@ -42,6 +44,7 @@ class Equilibrium:
     """
 
     flux: Flux
+    moments: np.ndarray
     force: np.ndarray
     oscillation: np.ndarray
     imbalance: float
@@ -91,7 +94,12 @@ def equilibrate(topology, data, u, rule):
     if not dirichlet.facets.size:
         _balance(topology, loads.moments, through, contact, force)
     return Equilibrium(
-        flux=Flux(through, loads.moments, free.bubbles() + threshold.bubbles()),
+        flux=Flux(
+            through,
+            free.bubbles() + threshold.bubbles(),
+            None if data.f.constant is not None else loads.moments,
+        ),
+        moments=loads.moments,
         force=force,
         oscillation=oscillation,
         imbalance=_imbalance(topology, loads.moments, through),
@@ -103,34 +111,28 @@ def equilibrate(topology, data, u, rule):
 
 def _local_residuals(topology, u, moments, given):
     """s_k of each facet of each triangle, (3, nt), and what its rounding is relative to."""
-    local = np.empty((3, topology.mesh.number_of_triangles))
+    local = np.empty((3, topology.count))
     largest = 0.0
     for piece in topology.pieces():
         load = moments[:, piece.cells]
         own = load.sum(axis=0) - 2.0 * load[LAST]
-        values, couplings = u[piece.t2f], _couplings(piece)
+        values, couplings = u[piece.t2f], 4.0 * piece.coefficient * piece.couplings
         force = couplings[LAST] * (values[NEXT] - values)
         force += couplings[NEXT] * (values[LAST] - values)
-        local[:, piece.cells] = force - own
+        np.subtract(force, own, out=local[:, piece.cells])
         size = np.abs(couplings[LAST]) + np.abs(couplings[NEXT])
-        largest = max(largest, float((size * np.abs(values)).max() + np.abs(own).max()))
+        size = float((size * np.abs(values)).max())
+        largest = max(largest, size + max(float(own.max()), -float(own.min())))
     for flux in given:
         flux.take_from(local)
         largest = max(largest, float(np.max(np.abs(flux.integral), initial=0.0)))
     return local, largest
 
 
-def _couplings(piece):
-    """What couples the two facets beside facet i in CR's matrix, (3, m)."""
-    one, other = piece.edges[NEXT], piece.edges[LAST]
-    scalar = one[:, 0] * other[:, 0] + one[:, 1] * other[:, 1]
-    return piece.coefficient * scalar / piece.area
-
-
 def _means(topology, local, scale):
     """The flux through each facet, the mean of both sides; refused where they differ."""
-    sides = np.bincount(topology.t2f.ravel(), minlength=topology.mesh.number_of_facets)
-    jumps = np.where(sides == 2, np.abs(topology.sums_over_facets(local)), 0.0)
+    sides = topology.sides
+    jumps = np.where(sides == 2.0, np.abs(topology.sums_over_facets(local)), 0.0)
     worst = int(np.argmax(jumps))
     if jumps[worst] > _JUMP * scale:
         ends = topology.mesh.facet_ends(np.array([worst]))[:, 0]

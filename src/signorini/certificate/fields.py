@@ -1,15 +1,19 @@
-"""Gradients and fluxes on triangles, and their squares in closed form.
+"""Gradients and fluxes on triangles by what flows through their facets, and their squares.
 
 On a triangle each field here is
 
-    sum_i V_i lambda_i + sum_i Q_i lambda_i lambda_(i+1),
+    sum_i V_i lambda_i + sum_i w_i e_i lambda_i lambda_(i+1),
 
-with vectors V_i at the corners and Q_i on the facets. With a = |T|, the integrals of products of
-barycentric coordinates are a/6 and a/12 (two), a/30 and a/60 (three), a/90 and a/180 (four), so
-that
+with vectors V_i at the corners and the facets e_i from corner i to corner i + 1. Of V the normal
+components are kept, times the length of the facet: s_i of facet i at its start, t_i at its end, so
+that 2 |T| V_i = e_(i+2) s_i - e_i t_(i+2). With kappa_i = e_(i+1) . e_(i+2) / (4 |T|), which is
+-cot(angle opposite to facet i) / 2, and z_i = s_(i+1) - t_(i+2), the square of the affine part is
 
-    |.|^2 = a [ (|sum V|^2 + sum |V_i|^2) / 12 + sum Q_i . (sum V + V_i + V_(i+1)) / 30
-                + (sum |Q_i|^2 + |sum Q|^2) / 180 ].
+    |.|^2 = -sum_i kappa_i [ s_i^2 + t_i^2 + (s_(i+2) + t_(i+1))^2 + (z_(i+1) - z_(i+2))^2 ] / 12,
+
+because |sum x_i e_i|^2 = -4 |T| sum kappa_i (x_(i+1) - x_(i+2))^2, and the integrals of products of
+two barycentric coordinates are |T| / 6 and |T| / 12. Those of three are |T| / 30 and |T| / 60, of
+four |T| / 90 and |T| / 180.
 """
 
 from dataclasses import dataclass, replace
@@ -47,15 +51,16 @@ class Flux:
     ----------
     through : ndarray, shape (nf,)
         Flux through each facet, to the right of the way from its vertex of smaller number.
-    moments : ndarray, shape (3, nt)
+    bubbles : ndarray, shape (nf,)
+        Factors of the curls of the bubbles.
+    moments : ndarray, shape (3, nt), or None
         See `loads.TriangleLoads`: the divergence is minus the affine function with these moments.
-    bubbles : ndarray, shape (nf,), optional
-        Factors of the curls of the bubbles; none where not given.
+        None where that is constant on each triangle.
     """
 
     through: np.ndarray
-    moments: np.ndarray
-    bubbles: np.ndarray | None = None
+    bubbles: np.ndarray
+    moments: np.ndarray | None = None
 
     def with_bubbles(self, bubbles):
         """The same flux with other bubbles."""
@@ -68,82 +73,111 @@ class Field:
 
     Parameters
     ----------
-    corners : ndarray, shape (3, 2, m)
-        The vectors V.
-    facets : ndarray, shape (3, 2, m), or None
-        The vectors Q; none where there are none.
+    starts, ends : ndarray, shape (3, m)
+        s and t: normal components at both ends of each facet, outward, times its length.
+    rises : ndarray, shape (3, m), or None
+        w; none where there is none.
     """
 
-    corners: np.ndarray
-    facets: np.ndarray | None = None
+    starts: np.ndarray
+    ends: np.ndarray
+    rises: np.ndarray | None = None
+
+    def __add__(self, other):
+        rises = other.rises if self.rises is None else self.rises
+        if self.rises is not None and other.rises is not None:
+            rises = self.rises + other.rises
+        return Field(self.starts + other.starts, self.ends + other.ends, rises)
 
     def __sub__(self, other):
-        return self.plus(-1.0, other)
-
-    def plus(self, factor, other):
-        """self + factor * other; the factor may differ from triangle to triangle."""
-        corners = self.corners + factor * other.corners
-        if other.facets is None:
-            return Field(corners, self.facets)
-        facets = factor * other.facets
-        return Field(corners, facets if self.facets is None else facets + self.facets)
+        return self + other.times(-1.0)
 
     def times(self, factor):
         """factor * self."""
-        facets = None if self.facets is None else factor * self.facets
-        return Field(factor * self.corners, facets)
+        rises = None if self.rises is None else factor * self.rises
+        return Field(factor * self.starts, factor * self.ends, rises)
 
-    def squared(self, area):
+    def squared(self, piece):
         """The integral of the square over each triangle, shape (m,)."""
-        V, Q = self.corners, self.facets
-        total = V.sum(axis=0)
-        square = (_dot(total, total) + _dot(V, V).sum(axis=0)) / 12.0
-        if Q is not None:
-            square += _dot(Q, total + V + V[NEXT]).sum(axis=0) / 30.0
-            all_q = Q.sum(axis=0)
-            square += (_dot(Q, Q).sum(axis=0) + _dot(all_q, all_q)) / 180.0
-        return area * square
+        s, t = self.starts, self.ends
+        z = s[NEXT] - t[LAST]
+        total = 0.0
+        for i, kappa in enumerate(piece.couplings):
+            j, k = NEXT[i], LAST[i]
+            if not kappa.any():  # opposite to a right angle
+                continue
+            squares = s[i] ** 2 + t[i] ** 2 + (s[k] + t[j]) ** 2 + (z[j] - z[k]) ** 2
+            total = total - kappa * squares
+        total = total / 12.0
+        if self.rises is not None:
+            total = total + self._with_rises(piece, z)
+        return np.maximum(total, 0.0)
 
-    def means(self):
-        """The mean over each triangle, shape (2, m)."""
-        mean = self.corners.sum(axis=0) / 3.0
-        return mean if self.facets is None else mean + self.facets.sum(axis=0) / 12.0
+    def _with_rises(self, piece, z):
+        """What the w add to the square."""
+        s, t, w, kappa = self.starts, self.ends, self.rises, piece.couplings
+        after, before = kappa[NEXT], kappa[LAST]
+        both = after + before
+        turned, risen = z[NEXT] - z[LAST], w[NEXT] - w[LAST]
+        mixed = w * (s * after - t * before - both * (s[NEXT] - t[LAST])) - kappa * risen * turned
+        squares = both * w**2 + kappa * risen**2
+        return piece.area / 15.0 * (mixed.sum(axis=0) - piece.area / 3.0 * squares.sum(axis=0))
 
-    def moments(self):
-        """int field * lambda_i over the area, shape (3, 2, m)."""
-        V, Q = self.corners, self.facets
-        moments = (V.sum(axis=0) + V) / 12.0
-        if Q is not None:
-            moments += (Q.sum(axis=0) + Q + Q[LAST]) / 60.0
-        return moments
+    def against_curls(self, piece):
+        """int field . curl b_i over each triangle for the bubbles of its facets, (3, m).
 
+        By parts: what turns within is what runs around, and facet i's own way has 2/3 of it.
+        """
+        s, t, kappa = self.starts, self.ends, piece.couplings
+        after, before = kappa[NEXT], kappa[LAST]
+        both = after + before
+        along = s * after - t * before - both * (s[NEXT] - t[LAST])  # means of V . e_i
+        turned = (along.sum(axis=0) - 2.0 * along) / 3.0
+        if self.rises is not None:
+            w = self.rises
+            risen = before * (w[NEXT] - w) + after * (w[LAST] - w)
+            part = 2.0 * both * w - (both * w).sum(axis=0) - risen
+            turned += (2.0 / 15.0) * piece.area * part
+        return piece.sense * turned
 
-def _dot(u, v):
-    """Scalar products along the axis before the last."""
-    return u[..., 0, :] * v[..., 0, :] + u[..., 1, :] * v[..., 1, :]
+    def vectors(self, piece):
+        """V at the corners, and what is in front of lambda_i lambda_(i+1); both (3, 2, m)."""
+        e = piece.edges
+        corners = e[LAST] * self.starts[:, None] - e * self.ends[LAST][:, None]
+        corners = corners / (2.0 * piece.area)
+        facets = np.zeros_like(corners) if self.rises is None else e * self.rises[:, None]
+        return corners, facets
 
 
 def gradient_on(piece, potential):
-    """The gradient of a `Potential` on a piece, a `Field`."""
-    values = potential.corners[:, piece.cells]
-    slopes = piece.slopes
-    gradient = (values[1] - values[0]) * slopes[2] + (values[2] - values[0]) * slopes[0]
-    corners = np.broadcast_to(gradient, (3, *gradient.shape))
+    """k times the gradient of a `Potential` on a piece, a `Field`."""
+    flow = flow_on(piece, potential.corners[:, piece.cells])
     if potential.bubbles is None:
-        return Field(corners)
-    d = 4.0 * potential.bubbles[piece.t2f][:, None]
-    return Field(corners + d * slopes[LAST] + d[LAST] * slopes)
+        return Field(flow, flow)
+    kappa = piece.couplings
+    after, before = kappa[NEXT], kappa[LAST]
+    both = after + before
+    d = 8.0 * piece.coefficient * potential.bubbles[piece.t2f]
+    starts = flow - d * after + d[LAST] * both
+    return Field(starts, flow - d * before + d[NEXT] * both)
+
+
+def flow_on(piece, values):
+    """k grad v . n over each facet of an affine function: both ends alike, (3, m)."""
+    rise = values[NEXT] - values
+    rise *= 2.0 * piece.coefficient * piece.couplings
+    return rise[NEXT] - rise[LAST]
 
 
 def flux_on(piece, flux):
     """A `Flux` on a piece, a `Field`."""
-    through = piece.signs * flux.through[piece.t2f]
-    starts = ends = through  # the density at both ends of a facet, times its length
-    if flux.bubbles is not None:
-        tilt = 4.0 * piece.sense * flux.bubbles[piece.t2f]
-        starts, ends = through + tilt, through - tilt
-    corners = piece.edges[LAST] * starts[:, None] - piece.edges * ends[LAST][:, None]
-    corners /= 2.0 * piece.area
-    moments = flux.moments[:, piece.cells]
-    rise = 4.0 * (moments[NEXT] - moments) / piece.area
-    return Field(corners, rise[:, None] * piece.edges)
+    through = flux.through[piece.t2f]
+    through *= piece.signs
+    tilt = flux.bubbles[piece.t2f]
+    tilt *= 4.0 * piece.sense
+    rises = None
+    if flux.moments is not None:
+        moments = flux.moments[:, piece.cells]
+        rises = moments[NEXT] - moments
+        rises *= 4.0 / piece.area
+    return Field(through + tilt, through - tilt, rises)

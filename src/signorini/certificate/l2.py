@@ -31,7 +31,7 @@ def l2_bound(enclosure, corners):
         values = enclosure.potential.corners[:, piece.cells] - corners[:, piece.cells]
         bubbles = 4.0 * enclosure.potential.bubbles[piece.t2f]
         own = np.sqrt(piece.area * mean_square(values, bubbles)) + rest[piece.cells]
-        square += float(own @ own)
+        square += float(np.sum(own**2))
     return float(np.sqrt(square) + enclosure.friedrichs * enclosure.error_of_potential)
 
 

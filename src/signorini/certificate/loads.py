@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.chunks import chunk_slices
+from signorini.errors.pieces import RADON
 from signorini.exceptions import SceneError
+from signorini.fem.load import triangle_integrals
 from signorini.fem.quadrature import triangle_rule
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import triangle_areas
@@ -44,23 +46,31 @@ def triangle_loads(mesh, f, rule):
     TriangleLoads
     """
     count = mesh.number_of_triangles
-    areas = mesh.area
-    moments, remainder = np.zeros((3, count)), np.zeros(count)
     if f.constant is not None:
-        moments += f.constant * areas / 3.0
-        return TriangleLoads(moments, remainder)
+        third = np.broadcast_to(f.constant * mesh.area / 3.0, count)
+        return TriangleLoads(np.tile(third, (3, 1)), np.zeros(count))
     points, weights = triangle_rule(rule, count)
-    for cells in chunk_slices(count, max(_POINTS_AT_ONCE // weights.size, 1)):
-        values = f(*(points.T @ _corners(mesh, cells)))
-        own = areas if np.isscalar(areas) else areas[cells]
-        mean_moments = (points * weights) @ values
-        moments[:, cells] = own * mean_moments
-        affine = 12.0 * mean_moments - 3.0 * mean_moments.sum(axis=0)
+    moments = triangle_integrals(mesh, f, points, points * weights)
+    if count >= _MANY:
+        points, weights = RADON
+    return TriangleLoads(moments, _remainders(mesh, f, moments, points, weights))
+
+
+def _remainders(mesh, f, moments, points, weights):
+    """int (f - f_1)^2 over each triangle."""
+    found = np.empty(mesh.number_of_triangles)
+    for cells in chunk_slices(found.size, max(_POINTS_AT_ONCE // weights.size, 1)):
+        corners, own = _corners(mesh, cells), moments[:, cells]
+        area = triangle_areas(corners)
+        affine = (12.0 * own - 3.0 * own.sum(axis=0)) / area
+        values = f(*(points.T @ corners))
         values -= points.T @ affine
-        remainder[cells] = own * (weights @ np.square(values, out=values))
-    return TriangleLoads(moments, remainder)
+        found[cells] = area * (weights @ np.square(values, out=values))
+    return found
 
 
+# On a mesh so fine a smooth f leaves a quadratic, whose square few points integrate.
+_MANY = 2**16
 _WORST = 4  # triangles that are looked at closer
 # Around a point where f is like r^-p, int f^2 over a triangle of half the size is 2^(2p - 2) times
 # as much: from p = 1 on, where f is not square integrable, no less.
@@ -85,7 +95,8 @@ def check_square_integrable(mesh, f, loads):
     """
     if f.constant is not None:
         return
-    worst = np.argsort(loads.remainder)[::-1][:_WORST]
+    first = max(loads.remainder.size - _WORST, 0)
+    worst = np.argpartition(loads.remainder, first)[first:]
     for cell in worst[loads.remainder[worst] > 0.0]:
         corners = _corners(mesh, slice(cell, cell + 1))
         before = _square(f, corners)[0]
@@ -103,8 +114,8 @@ def check_square_integrable(mesh, f, loads):
 
 
 def _square(f, corners):
-    """int f^2 over triangles (2, 3, m) by the rule of degree 5, shape (m,)."""
-    points, weights = triangle_rule(5)
+    """int f^2 over triangles (2, 3, m) by a rule of degree 5, shape (m,)."""
+    points, weights = RADON
     return triangle_areas(corners) * (weights @ f(*(points.T @ corners)) ** 2)
 
 

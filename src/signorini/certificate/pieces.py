@@ -6,8 +6,11 @@ from functools import cached_property
 import numpy as np
 
 from signorini.chunks import chunk_slices
+from signorini.fem.elements import find_element
+from signorini.mesh.boundary import LABELS
+from signorini.mesh.grid import Grid
 
-_AT_ONCE = 2**13  # triangles, whose arrays of three vectors then stay in a processor's cache
+_AT_ONCE = 2**13  # triangles, whose arrays then stay in a processor's cache
 NEXT, LAST = [1, 2, 0], [2, 0, 1]  # the corner, or the facet, after and before each
 
 
@@ -15,55 +18,56 @@ NEXT, LAST = [1, 2, 0], [2, 0, 1]  # the corner, or the facet, after and before 
 class Piece:
     """m triangles. Facet i runs from corner i to corner i + 1, and is opposite to corner i + 2.
 
+    On a grid these are congruent, and what depends on their shape is there once: m is 1 for it.
+
     Attributes
     ----------
     cells : slice
         Their numbers.
-    t, t2f : ndarray of int, shape (3, m)
-        Their vertices and facets.
+    t2f : ndarray of int, shape (3, m)
+        Their facets.
     edges : ndarray, shape (3, 2, m)
         Facet i as a vector, unit of length.
-    doubled : ndarray, shape (m,)
-        Twice the signed area: positive where corners run counterclockwise.
+    signs : ndarray, shape (3, m)
+        1 where the outward normal of facet i is the facet's own, else -1. That lies to the right of
+        the way from its vertex of smaller number to the other.
     coefficient : ndarray, shape (m,), or float
         Diffusion coefficient k.
     """
 
     cells: slice
-    t: np.ndarray
     t2f: np.ndarray
     edges: np.ndarray
-    doubled: np.ndarray
+    signs: np.ndarray
     coefficient: np.ndarray | float
+
+    @cached_property
+    def _doubled(self):
+        """Twice the signed area: positive where corners run counterclockwise."""
+        e = self.edges
+        return e[0, 0] * e[1, 1] - e[0, 1] * e[1, 0]
 
     @cached_property
     def area(self):
         """Area of each, shape (m,), unit of length squared."""
-        return 0.5 * np.abs(self.doubled)
+        return 0.5 * np.abs(self._doubled)
 
     @cached_property
     def sense(self):
         """1 where corners run counterclockwise, else -1, shape (m,)."""
-        return np.sign(self.doubled)
+        return np.sign(self._doubled)
 
     @cached_property
-    def signs(self):
-        """1 where the outward normal of facet i is the facet's own, else -1, shape (3, m).
-
-        That lies to the right of the way from its vertex of smaller number to the other.
-        """
-        forward = self.t[NEXT] > self.t
-        return np.where(forward, self.sense, -self.sense)
+    def couplings(self):
+        """|T| grad lambda_i . grad lambda_(i+1) = -cot(angle opposite to facet i) / 2, (3, m)."""
+        one, other = self.edges[NEXT], self.edges[LAST]
+        scalar = one[:, 0] * other[:, 0] + one[:, 1] * other[:, 1]
+        return 0.25 * scalar / self.area
 
     @cached_property
     def longest(self):
         """The longest edge of each, shape (m,), unit of length."""
         return np.sqrt((self.edges**2).sum(axis=1).max(axis=0))
-
-    @cached_property
-    def slopes(self):
-        """Gradients of the barycentric coordinates: [i] of that of corner i + 2, (3, 2, m)."""
-        return np.stack([-self.edges[:, 1], self.edges[:, 0]], axis=1) / self.doubled
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,18 +95,63 @@ class Topology:
         return self.mesh.t2f
 
     @property
+    def count(self):
+        """Number of triangles."""
+        return self.mesh.number_of_triangles
+
+    @property
     def least_coefficient(self):
         """The smallest coefficient."""
         return 1.0 if self.coefficient is None else float(self.coefficient.min())
 
+    @property
+    def total_area(self):
+        """Area of the body, unit of length squared."""
+        return float(np.sum(np.broadcast_to(self.mesh.area, self.count)))
+
     def pieces(self):
         """Yield all triangles, a `Piece` at a time."""
-        for cells in chunk_slices(self.mesh.number_of_triangles, _AT_ONCE):
-            edges = self.mesh.edge_vectors(cells)
-            k = 1.0 if self.coefficient is None else self.coefficient[cells]
-            doubled = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
-            yield Piece(cells, self.t[:, cells], self.t2f[:, cells], edges, doubled, k)
+        halves = 2 if isinstance(self.mesh, Grid) else 1
+        size = self.count // halves
+        for half in range(halves):
+            for part in chunk_slices(size, _AT_ONCE):
+                cells = slice(half * size + part.start, half * size + part.stop)
+                yield self._piece(
+                    cells, slice(cells.start, cells.start + 1) if halves > 1 else cells
+                )
+
+    def _piece(self, cells, shapes):
+        """Some triangles, of which those in `shapes` tell the shapes of all."""
+        edges = self.mesh.edge_vectors(shapes)
+        doubled = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
+        t = self.t[:, shapes]
+        signs = np.where(t[NEXT] > t, np.sign(doubled), -np.sign(doubled))
+        k = 1.0 if self.coefficient is None else self.coefficient[cells]
+        return Piece(cells, self.t2f[:, cells], edges, signs, k)
+
+    @cached_property
+    def boundary(self):
+        """Local facet and triangle of each boundary facet, shape (2, m)."""
+        mesh = self.mesh
+        on_it = np.zeros(mesh.number_of_facets, dtype=bool)
+        for label in LABELS:
+            on_it[mesh.boundary_facets(label)] = True
+        return np.stack(np.nonzero(on_it[self.t2f]))
+
+    @cached_property
+    def sides(self):
+        """How many triangles have each facet, shape (nf,)."""
+        sides = np.full(self.mesh.number_of_facets, 2.0)
+        sides[self.t2f[tuple(self.boundary)]] = 1.0
+        return sides
 
     def sums_over_facets(self, values):
         """What triangles give to their facets, summed: (3, nt) to (nf,)."""
-        return np.bincount(self.t2f.ravel(), values.ravel(), minlength=self.mesh.number_of_facets)
+        mesh, count = self.mesh, self.mesh.number_of_facets
+        if not isinstance(mesh, Grid):
+            return np.bincount(self.t2f.ravel(), values.ravel(), minlength=count)
+        sums, halves = np.zeros(count), values.reshape(3, 2, mesh.ny, mesh.nx)
+        for first, last in mesh.row_chunks():
+            parts = [halves[:, half, first:last] for half in (0, 1)]
+            find_element("CR").add_cell_loads(sums, mesh, first, parts)
+        return sums

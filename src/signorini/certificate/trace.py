@@ -81,7 +81,7 @@ def trace(topology, label):
     mesh = topology.mesh
     labelled = np.zeros(mesh.number_of_facets, dtype=bool)
     labelled[mesh.boundary_facets(label)] = True
-    local, cells = np.nonzero(labelled[topology.t2f])
+    local, cells = topology.boundary[:, labelled[topology.t2f[tuple(topology.boundary)]]]
     t = topology.t[:, cells]
     columns = np.arange(cells.size)
     first, second = t[local, columns], t[np.array(NEXT)[local], columns]

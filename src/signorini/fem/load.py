@@ -135,37 +135,78 @@ def _weighted_shape(element, rule, number_of_triangles):
     return points, element.shape(points) * weights
 
 
+def triangle_integrals(mesh, f, points, weights):
+    """Weighted sums of f over the points of a rule in each triangle, times its area.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    f : Formula or Function
+    points : ndarray, shape (3, q)
+        Barycentric coordinates.
+    weights : ndarray, shape (k, q)
+
+    Returns
+    -------
+    ndarray, shape (k, nt)
+        Unit of f times length squared.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> points, weights = triangle_rule(2)
+    >>> triangle_integrals(grid, Formula("6*x"), points, weights[None]).round(12).tolist()
+    [[1.0, 2.0]]
+    """
+    if not isinstance(mesh, Grid):
+        return _integrals_on_triangles(mesh, f, points, weights)
+    found = np.empty((len(weights), 2, mesh.ny, mesh.nx))
+    for first, last in mesh.row_chunks():
+        for half, corners in enumerate(mesh.corners):
+            part = _cell_integrals(mesh, f, points, weights, corners, first, last)
+            found[:, half, first:last] = part
+    return found.reshape(len(weights), -1)
+
+
 def _on_grid(grid, element, f, points, shape):
     """A block of rows of cells at a time."""
     b = np.zeros(element.size(grid))
     for first, last in grid.row_chunks():
         parts = [
-            _cell_loads(grid, f, points, shape, corners, first, last) for corners in grid.corners
+            _cell_integrals(grid, f, points, shape, corners, first, last)
+            for corners in grid.corners
         ]
         element.add_cell_loads(b, grid, first, parts)
     return b
 
 
-def _cell_loads(grid, f, points, shape, corners, first, last):
-    """What one of the two triangles of each cell adds to its three dofs: (3, last - first, nx)."""
-    local = np.zeros((3, last - first, grid.nx))
+def _cell_integrals(grid, f, points, weights, corners, first, last):
+    """Those of one of the two triangles of each cell of some rows: (k, last - first, nx)."""
+    local = np.zeros((len(weights), last - first, grid.nx))
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
         values = f(x, y)
         values = values.reshape(-1, *values.shape[2:])
-        local[:, rows] += weighted(grid.area * shape[:, which.ravel()], values)
+        local[:, rows] += weighted(grid.area * weights[:, which.ravel()], values)
     return local
 
 
 def _on_triangles(mesh, element, f, points, shape):
-    """All points of a chunk of triangles at a time; one product with the shape functions."""
-    local = np.empty((3, mesh.number_of_triangles))
+    local = _integrals_on_triangles(mesh, f, points, shape)
+    dofs = element.triangle_dofs(mesh).ravel()
+    return np.bincount(dofs, local.ravel(), minlength=element.size(mesh))
+
+
+def _integrals_on_triangles(mesh, f, points, weights):
+    """All points of a chunk of triangles at a time; one product with the weights."""
+    local = np.empty((len(weights), mesh.number_of_triangles))
     size = max(_POINTS_AT_ONCE // points.shape[1], 1)
     for cells in chunk_slices(mesh.number_of_triangles, size):
         corners = mesh.corners(cells)
         x, y = points.T @ corners
-        np.multiply(shape @ f(x, y), triangle_areas(corners), out=local[:, cells])
-    dofs = element.triangle_dofs(mesh).ravel()
-    return np.bincount(dofs, local.ravel(), minlength=element.size(mesh))
+        np.multiply(weights @ f(x, y), triangle_areas(corners), out=local[:, cells])
+    return local
 
 
 def _add_flux(b, mesh, element, g, label):

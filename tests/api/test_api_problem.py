@@ -256,6 +256,7 @@ def asked(mesh=MESH, *arguments, **changes):
         (lambda: asked(coefficient={"a": -1}), "coefficient.a: -1.0 is not valid"),
         (lambda: asked(load_quadrature="gauss"), "load_quadrature: 'gauss' (str) is not valid"),
         (lambda: asked(load_quadrature=0), "load_quadrature: 0 (int) is not valid"),
+        (lambda: asked(load_precision="half"), "load_precision: 'half' (str) is not valid"),
         (lambda: asked(constraint="both"), "constraint: 'both' (str) is not valid; known: lower"),
         (lambda: asked(exact="punchy"), "'punchy' is neither a formula nor a family; did you mean"),
         (lambda: asked(exact=3), "exact: 3 (int) is no exact solution"),

@@ -18,6 +18,7 @@ from signorini.publication.published import read_published
 ROOT = Path(__file__).parents[2]
 SCENE = load_scene(ROOT / "config/scenes/paper.yaml")
 PUBLISHED = list(read_published(ROOT / "config/published/table_5_1.csv").values())
+DIGITS = load_scene(ROOT / "config/scenes/paper-digits.yaml")
 LEVELS, NORMS = SCENE.levels, ("l2", "h1")
 
 
@@ -92,6 +93,23 @@ def test_nineteen_of_them_to_the_last_digit():
     assert len(others) == 5
     assert all(" CR " in row["cell"] for row in others)
     assert all(0.505 < abs(float(row["units"])) < 0.685 for row in others)
+
+
+def test_all_of_them_to_the_last_digit_with_the_load_in_single_precision():
+    """What the scene `paper-digits` checks in its build, and how near the worst of them is."""
+    rows = checked(Statement(load_precision="single"))
+    half = list(read_published(DIGITS.document["publication"]["published"]).values())
+    assert [(a.key, a.value) for a in half] == [(b.key, b.value) for b in PUBLISHED]
+    assert [number.tolerance for number in half] == ["0.5"] * 24 + ["1"] * 4
+    assert max(abs(float(row["units"])) for row in rows[:24]) == pytest.approx(0.470, abs=5e-4)
+    assert all(row["ok"] for row in rows)
+
+
+def test_the_scene_of_all_digits_differs_in_the_load_alone():
+    changed = {key for key in DIGITS.statement if DIGITS.statement[key] != SCENE.statement[key]}
+    assert changed == {"load_precision"}
+    for key in ("levels", "elements", "truth", "norms", "norm_quadrature", "slope"):
+        assert DIGITS.document[key] == SCENE.document[key]
 
 
 @pytest.mark.parametrize("option", OTHER_OPTIONS)

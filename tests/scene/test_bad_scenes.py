@@ -199,6 +199,10 @@ BAD_INPUT = {
         "expected centroid, midpoints, vertices, exact, nodal or a whole number",
     ),
     "rule a float": (VALID + "load_quadrature: 5.0\n", "load_quadrature: 5.0 is not valid"),
+    "precision half": (
+        VALID + "load_precision: half\n",
+        'load_precision: "half" is not valid; known: double, single',
+    ),
     "rule zero": (VALID + "load_quadrature: 0\n", "load_quadrature: 0 is not valid"),
     "unknown norm": (VALID + "norms: [l2, H1]\n", 'norms.1: "H1" is not valid; did you mean h1?'),
     "unknown method": (

@@ -51,6 +51,7 @@ def test_what_it_leaves_out_has_that_default(written, tmp_path):
     document = load_scene(path).document
     for key in (
         "load_quadrature",
+        "load_precision",
         "elements",
         "norms",
         "norm_quadrature",

@@ -19,6 +19,7 @@ from signorini.api.types import Datum, Names, PartwiseDatum
 from signorini.exact import ExactSolution, derived_data, with_coefficient
 from signorini.exceptions import SceneError
 from signorini.fem.data import Data
+from signorini.fem.precision import LOAD_PRECISIONS
 from signorini.fem.problem import Problem, discretize, discretize_on
 from signorini.formula import Formula
 from signorini.mesh.domain import longest_edge
@@ -43,6 +44,7 @@ def problem(
     constraint: str = "lower",
     exact: Any = None,
     load_quadrature: str | int = "exact",
+    load_precision: str = "double",
 ) -> Problem:
     """A discrete Signorini problem.
 
@@ -85,6 +87,8 @@ def problem(
     load_quadrature : str or int, optional
         Rule for the integral of f: exact (to round-off for smooth f), centroid, midpoints,
         vertices, nodal, or a degree.
+    load_precision : {"double", "single"}, optional
+        For single, the numbers of the load are rounded to 24 bits; all else is double.
 
     Returns
     -------
@@ -113,7 +117,10 @@ def problem(
     >>> signorini.solve(problem).status
     'solved'
     """
-    _check_choices(constraint=constraint, load_quadrature=load_quadrature)
+    _check_choices(
+        constraint=constraint, load_quadrature=load_quadrature, load_precision=load_precision
+    )
+    load = {"load_quadrature": load_quadrature, "load_precision": load_precision}
     given = _read_data(
         f=f, g=g, obstacle=obstacle, coefficient=coefficient, contact_flux=contact_flux
     )
@@ -124,14 +131,16 @@ def problem(
     if isinstance(mesh, Grid | Triangulation):
         _refuse_labels(contact=contact, neumann=neumann)
         given |= _read_data(dirichlet=dirichlet)
-        return _on_labelled(mesh, element, _data(given, truth), load_quadrature)
+        return _on_labelled(mesh, element, _data(given, truth), load)
     mesh = as_mesh(mesh)
     labels = _labels(mesh, dirichlet, contact, neumann, g)
     if isinstance(dirichlet, Mapping):
         given |= _read_data(dirichlet=dirichlet)
     domain, boundary = mesh.labelled(labels, "neumann" if neumann is None else None)
     data = _data(given, truth)
-    statement = ProblemStatement(domain, boundary, data, load_quadrature, mesh.coarsest, truth)
+    statement = ProblemStatement(
+        domain, boundary, data, coarsest=mesh.coarsest, exact=truth, **load
+    )
     found = discretize(statement, element, mesh.n)
     if truth is not None:
         check_functions(truth, found.mesh, data.f)
@@ -149,6 +158,7 @@ _READERS: dict[str, Callable[[Any], Any]] = {
 _CHOICES = {
     "constraint": ("lower", "upper"),
     "load_quadrature": ("exact", "centroid", "midpoints", "vertices", "nodal"),
+    "load_precision": tuple(LOAD_PRECISIONS),
 }
 _DEGREES = range(1, 61)
 
@@ -217,9 +227,9 @@ def _refuse_labels(**given: Names | None) -> None:
 
 
 def _on_labelled(
-    mesh: Grid | Triangulation, element: str, data: Data, load_quadrature: str | int
+    mesh: Grid | Triangulation, element: str, data: Data, load: Mapping[str, str | int]
 ) -> Problem:
     """The problem on a mesh of the library, whose labels hold."""
-    statement = ProblemStatement({}, {}, data, load_quadrature)
+    statement = ProblemStatement({}, {}, data, **load)
     found = discretize_on(mesh, element, statement)
     return replace(found, n=1, h=longest_edge(mesh))

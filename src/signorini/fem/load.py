@@ -9,6 +9,7 @@ from signorini.chunks import chunk_slices
 from signorini.exceptions import SceneError
 from signorini.fem.by_part import ByPart
 from signorini.fem.grid_lines import points_on_lines, weighted
+from signorini.fem.precision import DOUBLE
 from signorini.fem.quadrature import interval_rule, triangle_rule
 from signorini.mesh.boundary import part_key
 from signorini.mesh.boundary_trace import outward_normals
@@ -19,7 +20,7 @@ _EDGE_DEGREE = 9
 _POINTS_AT_ONCE = 2**16  # where f is evaluated in one call; measured
 
 
-def assemble_load(mesh, element, f, g, rule):
+def assemble_load(mesh, element, f, g, rule, precision=DOUBLE):
     """Load vector.
 
     Parameters
@@ -32,6 +33,7 @@ def assemble_load(mesh, element, f, g, rule):
         Quadrature rule on triangles, see `quadrature.triangle_rule`; or ``"nodal"``: f is replaced
         by its interpolant in the element's own nodes (for CR this is the rule ``"midpoints"``).
         Boundary integrals of g use Gauss points.
+    precision : LoadPrecision, optional
 
     Returns
     -------
@@ -56,14 +58,14 @@ def assemble_load(mesh, element, f, g, rule):
     if f.constant == 0.0:
         b = np.zeros(element.size(mesh))
     elif isinstance(mesh, Grid):
-        b = _on_grid(mesh, element, f, points, shape)
+        b = _on_grid(mesh, element, f, points, shape, precision)
     else:
-        b = _on_triangles(mesh, element, f, points, shape)
-    _add_fluxes(b, mesh, element, g, "neumann")
+        b = _on_triangles(mesh, element, f, points, shape, precision)
+    _add_fluxes(b, mesh, element, g, "neumann", precision)
     return b
 
 
-def assemble_contact_load(mesh, element, contact_flux):
+def assemble_contact_load(mesh, element, contact_flux, precision=DOUBLE):
     """Load of a threshold s on the contact part, by the rule of g.
 
     Parameters
@@ -72,6 +74,7 @@ def assemble_contact_load(mesh, element, contact_flux):
     element : Element
     contact_flux : Formula, Function or ByPart
         The threshold, unit of k u per length.
+    precision : LoadPrecision, optional
 
     Returns
     -------
@@ -92,11 +95,11 @@ def assemble_contact_load(mesh, element, contact_flux):
     if contact_flux.constant == 0.0:
         return None
     b = np.zeros(element.size(mesh))
-    _add_fluxes(b, mesh, element, contact_flux, "contact")
+    _add_fluxes(b, mesh, element, contact_flux, "contact", precision)
     return b
 
 
-def _add_fluxes(b, mesh, element, flux, label):
+def _add_fluxes(b, mesh, element, flux, label, precision):
     """Add int g phi over the facets with a label, or over each of the parts that g is given on."""
     fluxes = {label: flux}
     if isinstance(flux, ByPart):
@@ -104,7 +107,7 @@ def _add_fluxes(b, mesh, element, flux, label):
         fluxes = {part_key(name): own for name, own in flux.parts.items()}
     for key, own in fluxes.items():
         if own.constant != 0.0:
-            _add_flux(b, mesh, element, own, key)
+            _add_flux(b, mesh, element, own, key, precision)
 
 
 def _check_apart(mesh, g):
@@ -170,46 +173,47 @@ def triangle_integrals(mesh, f, points, weights):
     return found.reshape(len(weights), -1)
 
 
-def _on_grid(grid, element, f, points, shape):
+def _on_grid(grid, element, f, points, shape, precision):
     """A block of rows of cells at a time."""
     b = np.zeros(element.size(grid))
     for first, last in grid.row_chunks():
         parts = [
-            _cell_integrals(grid, f, points, shape, corners, first, last)
+            _cell_integrals(grid, f, points, shape, corners, first, last, precision)
             for corners in grid.corners
         ]
         element.add_cell_loads(b, grid, first, parts)
     return b
 
 
-def _cell_integrals(grid, f, points, weights, corners, first, last):
+def _cell_integrals(grid, f, points, weights, corners, first, last, precision=DOUBLE):
     """Those of one of the two triangles of each cell of some rows: (k, last - first, nx)."""
     local = np.zeros((len(weights), last - first, grid.nx))
     for which, rows, x, y in points_on_lines(grid, corners, points, first, last):
-        values = f(x, y)
+        values = precision.values(f(x, y))
         values = values.reshape(-1, *values.shape[2:])
         local[:, rows] += weighted(grid.area * weights[:, which.ravel()], values)
-    return local
+    return precision.shares(local)
 
 
-def _on_triangles(mesh, element, f, points, shape):
-    local = _integrals_on_triangles(mesh, f, points, shape)
+def _on_triangles(mesh, element, f, points, shape, precision):
+    local = _integrals_on_triangles(mesh, f, points, shape, precision)
     dofs = element.triangle_dofs(mesh).ravel()
     return np.bincount(dofs, local.ravel(), minlength=element.size(mesh))
 
 
-def _integrals_on_triangles(mesh, f, points, weights):
+def _integrals_on_triangles(mesh, f, points, weights, precision=DOUBLE):
     """All points of a chunk of triangles at a time; one product with the weights."""
     local = np.empty((len(weights), mesh.number_of_triangles))
     size = max(_POINTS_AT_ONCE // points.shape[1], 1)
     for cells in chunk_slices(mesh.number_of_triangles, size):
         corners = mesh.corners(cells)
         x, y = points.T @ corners
-        np.multiply(weights @ f(x, y), triangle_areas(corners), out=local[:, cells])
-    return local
+        means = weights @ precision.values(f(x, y))
+        np.multiply(means, triangle_areas(corners), out=local[:, cells])
+    return precision.shares(local)
 
 
-def _add_flux(b, mesh, element, g, label):
+def _add_flux(b, mesh, element, g, label, precision):
     """Add int g phi over the facets with a label.
 
     All three functions of the triangle behind a facet take part: none of CR vanishes on it.
@@ -222,15 +226,15 @@ def _add_flux(b, mesh, element, g, label):
     s, weights = interval_rule(_EDGE_DEGREE)
     for facet, ends in enumerate(((0, 1), (1, 2), (0, 2))):
         behind = np.flatnonzero(np.isin(triangles.t2f[facet], facets))
-        values = _flux_at(mesh, triangles.t[:, behind], ends, g, s, weights)
+        values = _flux_at(mesh, triangles.t[:, behind], ends, g, s, weights, precision)
         for point, at_point in zip(s, values, strict=True):
             barycentric = np.zeros((3, 1))
             barycentric[ends, 0] = 1.0 - point, point
             for k, phi in enumerate(element.shape(barycentric)[:, 0]):
-                np.add.at(b, dofs[k, behind], phi * at_point)
+                np.add.at(b, dofs[k, behind], precision.shares(phi * at_point))
 
 
-def _flux_at(mesh, t, ends, g, s, weights):
+def _flux_at(mesh, t, ends, g, s, weights, precision):
     """g at the points `s` of the facets between two corners of triangles, times the weights.
 
     `t` are the triangles, (3, k), and `ends` two of their corners; the result is (q, k).
@@ -243,4 +247,4 @@ def _flux_at(mesh, t, ends, g, s, weights):
     if getattr(g, "needs_normal", False):
         normal = outward_normals(along, length, mesh.points(t[3 - i - j]) - start)
     points = (1.0 - s[:, None]) * start[:, None] + s[:, None] * end[:, None]
-    return weights[:, None] * length * g(*points, *normal)
+    return weights[:, None] * length * precision.values(g(*points, *normal))

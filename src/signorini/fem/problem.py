@@ -11,6 +11,7 @@ from signorini.fem.data_checks import check_corners, check_poles
 from signorini.fem.discrete_problem import Problem
 from signorini.fem.elements import find_element
 from signorini.fem.load import assemble_contact_load, assemble_load
+from signorini.fem.precision import LOAD_PRECISIONS
 
 __all__ = ["Problem", "discretize", "discretize_on"]
 
@@ -59,7 +60,8 @@ def discretize_on(mesh, element, statement):
     """Discretise a problem statement on a given triangulation; see `discretize`.
 
     The domain of the statement is not used, and the mesh's labels hold. Of the statement, the data
-    and the load quadrature alone are used, and nothing is checked against an exact truth.
+    and the quadrature and precision of the load alone are used, and nothing is checked against an
+    exact truth.
 
     Parameters
     ----------
@@ -91,8 +93,9 @@ def discretize_on(mesh, element, statement):
     lower = values_at(mesh, finite_element, data.obstacle, contact)
     fixed_values = values_at(mesh, finite_element, data.dirichlet, fixed)
     check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))
-    b = assemble_load(mesh, finite_element, data.f, data.g, statement.load_quadrature)
-    contact_load = assemble_contact_load(mesh, finite_element, data.contact_flux)
+    precision = LOAD_PRECISIONS[statement.load_precision]
+    b = assemble_load(mesh, finite_element, data.f, data.g, statement.load_quadrature, precision)
+    contact_load = assemble_contact_load(mesh, finite_element, data.contact_flux, precision)
     if contact_load is not None:
         b += contact_load
     return Problem(

@@ -126,7 +126,8 @@ class Scene:
     def statement(self):
         """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict."""
         exact = ["truth"] if self.truth["kind"] == "exact" else []
-        parts = self.section("domain", "boundary", "constraint", "data", "load_quadrature", *exact)
+        load = ["data", "load_quadrature", "load_precision"]
+        parts = self.section("domain", "boundary", "constraint", *load, *exact)
         return parts | {"coarsest": self.levels[0]}
 
     @property

@@ -22,6 +22,7 @@ class ProblemStatement:
         The coarsest level, from which domains other than rectangles are refined.
     exact : ExactSolution, optional
         Where the truth is one.
+    load_precision : {"double", "single"}
     """
 
     domain: dict
@@ -30,6 +31,7 @@ class ProblemStatement:
     load_quadrature: str | int
     coarsest: int = 1
     exact: object = None
+    load_precision: str = "double"
 
     @cached_property
     def triangulations(self):
@@ -88,8 +90,8 @@ class ProblemStatement:
         Parameters
         ----------
         mapping : dict
-            ``domain``, ``boundary``, ``data`` and ``load_quadrature``; perhaps ``constraint``,
-            ``coarsest``, and ``truth`` where it is exact.
+            ``domain``, ``boundary``, ``data`` and ``load_quadrature``; perhaps
+            ``load_precision``, ``constraint``, ``coarsest``, and ``truth`` where it is exact.
 
         Returns
         -------
@@ -124,6 +126,7 @@ class ProblemStatement:
             load_quadrature=mapping["load_quadrature"],
             coarsest=mapping.get("coarsest", 1),
             exact=exact,
+            load_precision=mapping.get("load_precision", "double"),
         )
 
 

@@ -18,6 +18,7 @@ CATALOGUE = {
     "Its answer": {
         "mesh": "make the coarsest mesh of a scene",
         "solve": "discretise a scene at one level, solve it, and prove the result",
+        "adapt": "refine adaptively until an error is guaranteed",
         "errors": "measure errors against a scene's reference or exact solution",
         "rates": "fit slopes of the errors",
         "outputs": "compute the quantities that a scene asks for",
@@ -56,6 +57,10 @@ CATALOGUE = {
         "sensitivity combinations": "compare every combination with published numbers",
         "sensitivity figures": "draw its figures",
         "sensitivity report": "write its page",
+    },
+    "The adaptive study": {
+        "adaptive figures": "draw its figures",
+        "adaptive report": "write its page",
     },
     "The theory study": {
         "theory estimates": "measure both sides of the paper's estimates on a scene",

@@ -5,6 +5,7 @@ import numpy as np
 from signorini.fem.element_facts import CR_FACTS
 from signorini.fem.elements.edge_stencil import EDGE_STENCIL
 from signorini.fem.elements.element import Element, facets_of
+from signorini.mesh.facets import pair_keys
 
 
 class _CR(Element):
@@ -45,6 +46,15 @@ class _CR(Element):
 
     def half_facet_dofs(self, path):
         return path.facets, path.facets
+
+    def inherited(self, mesh, marks, dofs):
+        """A facet, or a half of one, has the mark of the facet that it was."""
+        coarse = mesh.coarser()
+        parents = mesh.vertex_parents()[:, mesh.facet_ends(dofs)]
+        ends = np.stack([parents.min(axis=(0, 1)), parents.max(axis=(0, 1))])
+        count = coarse.number_of_vertices
+        place = np.searchsorted(pair_keys(coarse.facets, count), pair_keys(ends, count))
+        return marks[place]
 
     def multiplier_cells(self, trace, dofs):
         """Each facet belongs to its own dof."""

@@ -220,6 +220,24 @@ class Element(ABC):
         """For each facet of a `Path`, the dof that holds on its first and on its second half."""
 
     @abstractmethod
+    def inherited(self, mesh, marks, dofs):
+        """Marks of dofs as boundary dofs of the refined mesh inherit them.
+
+        Parameters
+        ----------
+        mesh : Grid or Triangulation
+            The finer mesh, which knows the one it was refined from.
+        marks : ndarray of bool
+            Of all dofs on the coarser mesh.
+        dofs : ndarray of int, shape (k,)
+            On the boundary of the finer one.
+
+        Returns
+        -------
+        ndarray of bool, shape (k,)
+        """
+
+    @abstractmethod
     def multiplier_cells(self, trace, dofs):
         """The segments on which a multiplier is a constant density.
 

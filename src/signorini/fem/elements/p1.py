@@ -44,6 +44,11 @@ class _P1(Element):
     def half_facet_dofs(self, path):
         return path.vertices[:-1], path.vertices[1:]
 
+    def inherited(self, mesh, marks, dofs):
+        """A new vertex is marked where both vertices that it lies between are."""
+        first, second = mesh.vertex_parents()[:, dofs]
+        return marks[first] & marks[second]
+
     def multiplier_cells(self, trace, dofs):
         """Both halves of each facet, each of which belongs to the nearer vertex.
 

@@ -1,0 +1,1 @@
+"""Adaptive meshes: solve, certify, mark, refine, until a guaranteed bound is met."""

@@ -1,0 +1,239 @@
+"""What is kept of an adaptive run, so that it can be tabulated, drawn, and gone on with."""
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from signorini.errors.exact import ExactErrors
+from signorini.storage import read_npz, write_csv, write_npz
+
+_FILE, _KIND = "run.npz", "adaptive run"
+_LIMITS = ("bound", "max_dofs", "max_seconds")  # of a goal: they may change, and the run goes on
+
+
+@dataclass
+class Record:
+    """Rows and marks of the steps so far.
+
+    Parameters
+    ----------
+    key : str
+        What question the run answers: statement and goal, without limits.
+    rows : list of dict
+        Two for each step, one for each element; see `rows_of`.
+    seconds : list of dict
+        One for each step.
+    marks : list of ndarray of bool
+        What was refined after each step but the last.
+    """
+
+    key: str
+    rows: list = field(default_factory=list)
+    seconds: list = field(default_factory=list)
+    marks: list = field(default_factory=list)
+
+    def add(self, step, exact=None):
+        """Take a step down; its number follows that of the last one, or is that again.
+
+        Parameters
+        ----------
+        step : Step
+        exact : ExactSolution, optional
+            For the true errors.
+        """
+        self.rows = [row for row in self.rows if row["step"] < step.number]
+        self.seconds = [row for row in self.seconds if row["step"] < step.number]
+        self.rows += rows_of(step, exact)
+        self.seconds.append({"step": step.number} | step.seconds)
+        if step.marked is not None:
+            self.marks[step.number :] = [step.marked]
+
+    def write(self, folder):
+        """Keep the run, and write ``steps.csv`` and ``seconds.csv``.
+
+        Parameters
+        ----------
+        folder : Path
+        """
+        sizes = np.array([marked.size for marked in self.marks], dtype=np.int64)
+        bits = np.packbits(np.concatenate([np.zeros(0, dtype=bool), *self.marks]))
+        told = json.dumps({"key": self.key, "rows": self.rows, "seconds": self.seconds})
+        write_csv(folder / "steps.csv", self.rows)
+        write_csv(folder / "seconds.csv", self.seconds)
+        write_npz(folder / _FILE, _KIND, told=told, sizes=sizes, marks=bits)
+
+    @classmethod
+    def read(cls, folder, key):
+        """Go on with what is kept in a folder, or start anew where that is another question.
+
+        Parameters
+        ----------
+        folder : Path
+        key : str
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        StorageError
+            If what is kept is truncated or altered.
+        """
+        if not (folder / _FILE).exists():
+            return cls(key)
+        kept = read_npz(folder / _FILE, _KIND)
+        told = json.loads(str(kept["told"]))
+        if told["key"] != key:
+            return cls(key)
+        flat = np.unpackbits(kept["marks"], count=int(kept["sizes"].sum())).astype(bool)
+        ends = np.cumsum(kept["sizes"])
+        return cls(key, told["rows"], told["seconds"], np.split(flat, ends)[: ends.size])
+
+
+def key_of(scene, goal):
+    """The question that a run answers, as text.
+
+    Parameters
+    ----------
+    scene : Scene
+    goal : Goal
+
+    Returns
+    -------
+    str
+    """
+    chosen = {name: value for name, value in asdict(goal).items() if name not in _LIMITS}
+    return json.dumps([scene.statement, chosen], sort_keys=True)
+
+
+def rows_of(step, exact=None):
+    """What a step found, a row for each element.
+
+    Parameters
+    ----------
+    step : Step
+    exact : ExactSolution, optional
+
+    Returns
+    -------
+    list of dict
+        ``step``, ``element``, ``triangles``, ``dofs``, ``h_min`` and ``h_max`` (longest edges, unit
+        of length), the guaranteed bounds ``upper`` and ``lower`` of the energy error, ``error`` and
+        ``effectivity`` where the solution is known, ``in_contact``, ``contact_dofs``, ``status``,
+        ``method`` and ``reason``.
+    """
+    longest = _longest_edges(step.mesh)
+    rows = []
+    for element, certificate in step.certificates.items():
+        solution = step.solutions[element]
+        error = _true_error(step.mesh, solution.problem, solution.u, exact)
+        rows.append(
+            {
+                "step": step.number,
+                "element": element,
+                "triangles": step.mesh.number_of_triangles,
+                "dofs": int(solution.problem.free.size),
+                "h_min": float(longest.min()),
+                "h_max": float(longest.max()),
+                "upper": certificate.upper,
+                "lower": certificate.lower,
+                "error": error,
+                "effectivity": certificate.upper / error if error else None,
+                "in_contact": int(solution.active.sum()),
+                "contact_dofs": int(solution.active.size),
+                "status": solution.status,
+                "method": solution.method,
+                "reason": step.reason,
+            }
+        )
+    return rows
+
+
+def _longest_edges(mesh):
+    edges = mesh.edge_vectors(slice(None))
+    return np.sqrt((edges**2).sum(axis=1).max(axis=0))
+
+
+def _true_error(mesh, problem, u, exact):
+    """The energy error where the solution is known, else None."""
+    if exact is None:
+        return None
+    norms = ExactErrors(exact, ["energy"])
+    return norms.of(mesh, problem.finite_element, u, problem.coefficient)["energy"]
+
+
+def picture_of(step):
+    """A mesh with its contact set, to be drawn.
+
+    Parameters
+    ----------
+    step : Step
+
+    Returns
+    -------
+    dict of str to ndarray
+        ``p`` (2, nv), ``t`` (3, nt), ``contributions`` (nt,), the contact facets ``contact`` and
+        those of them whose ends both bind, ``binding``, (2, 2, k): axis, end, facet.
+    """
+    mesh, solution = step.mesh, step.solutions["P1"]
+    binds = np.zeros(mesh.number_of_vertices, dtype=bool)
+    binds[solution.problem.contact[solution.active]] = True
+    ends = np.asarray(mesh.facet_ends(mesh.boundary_facets("contact")))
+    p = np.asarray(mesh.p)
+    return {
+        "p": p,
+        "t": np.asarray(mesh.t),
+        "contributions": step.certificates["P1"].contributions,
+        "contact": p[:, ends],
+        "binding": p[:, ends[:, binds[ends].all(axis=0)]],
+    }
+
+
+def write_picture(path, step):
+    """Keep a mesh with its contact set, see `picture_of`.
+
+    Parameters
+    ----------
+    path : Path
+    step : Step
+    """
+    write_npz(path, "adapted mesh", **picture_of(step))
+
+
+def read_picture(path):
+    """Read what `write_picture` wrote.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    dict of str to ndarray
+
+    Raises
+    ------
+    StorageError
+        If the file is missing, truncated or altered.
+    """
+    return read_npz(Path(path), "adapted mesh")
+
+
+def write_solution_of(path, step):
+    """Keep the last mesh and both solutions on it.
+
+    Parameters
+    ----------
+    path : Path
+    step : Step
+    """
+    solutions = {f"u_{element}": solution.u for element, solution in step.solutions.items()}
+    mesh = {"p": np.asarray(step.mesh.p), "t": np.asarray(step.mesh.t)}
+    shares = {
+        f"contributions_{element}": certificate.contributions
+        for element, certificate in step.certificates.items()
+    }
+    write_npz(path, "adapted solution", **mesh, **solutions, **shares)

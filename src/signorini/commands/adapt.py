@@ -1,0 +1,104 @@
+"""Solve a scene on adaptive meshes until its energy error is guaranteed to be below a bound.
+
+Each step solves both elements, certifies them, and refines where the bound says. What was done is
+kept in the folder: interrupted, or asked for a smaller bound, the command goes on from there.
+
+example:
+  signorini adapt config/scenes/corner.yaml --bound 0.05 -o FOLDER
+"""
+
+import logging
+from dataclasses import replace
+from pathlib import Path
+
+from signorini.adapt.loop import Goal, adaptive_steps
+from signorini.adapt.record import Record, key_of, write_picture, write_solution_of
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_scene, scene_of
+from signorini.exceptions import SceneError
+from signorini.fem.element_facts import ELEMENT_NAMES
+from signorini.scene.scene import naming
+
+_log = logging.getLogger(__name__)
+_DRAWN = 3000  # triangles of the finest mesh that is kept to be drawn
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument("--bound", type=float, help="guaranteed energy error at which to end")
+    parser.add_argument("--element", choices=ELEMENT_NAMES, help="whose error; default P1")
+    parser.add_argument("--theta", type=float, help="share of the squared bound that is refined")
+    parser.add_argument("--start", type=int, help="level of the first mesh")
+    parser.add_argument("--max-dofs", type=int, help="beyond which no mesh is solved")
+    parser.add_argument("--max-seconds", type=float, help="after which no mesh is begun")
+    parser.add_argument("--uniform", action="store_true", help="refine every triangle, to compare")
+    parser.add_argument(
+        "--warm", action="store_true", help="solve the first mesh twice, before any clock starts"
+    )
+    parser.add_argument("--restart", action="store_true", help="forget what the folder holds")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+
+
+def run(arguments):
+    """Run, and write steps.csv, seconds.csv, run.npz, picture.npz and solution.npz."""
+    scene = scene_of(arguments.scene)
+    goal = goal_of(scene, arguments)
+    folder, key = arguments.output, key_of(scene, goal)
+    record = Record(key) if arguments.restart else Record.read(folder, key)
+    with naming(scene.source):
+        statement = scene.problem_statement
+        statement.check()
+        if arguments.warm:
+            next(adaptive_steps(statement, goal))
+        for step in adaptive_steps(statement, goal, record.marks):
+            record.add(step, statement.exact)
+            record.write(folder)
+            if step.mesh.number_of_triangles <= _DRAWN or step.number == 0:
+                write_picture(folder / "picture.npz", step)
+            _log.info("step %d: %s", step.number, _told(record.rows))
+    write_solution_of(folder / "solution.npz", step)
+    return Outcome(f"{_told(record.rows)}; {step.reason}", record.rows)
+
+
+def goal_of(scene, arguments):
+    """The scene's section ``adapt`` under what the command line says.
+
+    Parameters
+    ----------
+    scene : Scene
+    arguments : argparse.Namespace
+
+    Returns
+    -------
+    Goal
+
+    Raises
+    ------
+    SceneError
+        Naming the option, its value and what it may be.
+    """
+    names = ("bound", "element", "theta", "start", "max_dofs", "max_seconds")
+    given = {name: getattr(arguments, name) for name in names}
+    chosen = scene.document.get("adapt", {"start": scene.levels[0]})
+    chosen = chosen | {name: value for name, value in given.items() if value is not None}
+    goal = replace(Goal(), **chosen, uniform=arguments.uniform)
+    if not 0.0 < goal.theta <= 1.0:
+        raise SceneError(f"--theta {goal.theta:g}: give a share above 0, at most 1")
+    for name in ("start", "max_dofs"):
+        if getattr(goal, name) < 1:
+            raise SceneError(f"--{name.replace('_', '-')} {getattr(goal, name)}: give 1 or more")
+    if not goal.bound >= 0.0:
+        raise SceneError(f"--bound {goal.bound:g}: give a positive error, or 0 for no bound")
+    return goal
+
+
+def _told(rows):
+    """The last step in one line."""
+    last = rows[-1]["step"]
+    parts = [
+        f"{row['element']} {row['dofs']} dofs, {row['lower']:.4g} <= error <= {row['upper']:.4g}"
+        for row in rows
+        if row["step"] == last
+    ]
+    return f"step {last}: " + "; ".join(parts)

@@ -1,0 +1,1 @@
+"""Commands of the study `adaptive`, one file each."""

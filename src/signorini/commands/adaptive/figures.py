@@ -1,0 +1,44 @@
+"""Draw the figures of the adaptive study.
+
+example:
+  signorini adaptive figures runs/corner runs/l-shape -o FOLDER
+"""
+
+from signorini.adapt.record import read_picture
+from signorini.commands.adaptive.inputs import add_runs, read_runs
+from signorini.commands.catalogue import Outcome
+from signorini.figures.adaptive import draw_bounds, draw_meshes
+from signorini.figures.style import save_figure
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_runs(parser)
+
+
+def run(arguments):
+    """Draw three figures as PDF and PNG."""
+    runs = read_runs(arguments.scenes)
+    pictures = {
+        folder.name: read_picture(folder / "adaptive/picture.npz") for folder in arguments.scenes
+    }
+    figures = {
+        "dofs": draw_bounds(_curves(runs, "dofs", "dofs"), "dofs", "unknowns"),
+        "seconds": draw_bounds(_curves(runs, "total", "own"), "seconds", "seconds"),
+        "meshes": draw_meshes(pictures),
+    }
+    for name, figure in figures.items():
+        for ending in ("pdf", "png"):
+            save_figure(figure, arguments.output / f"adaptive_{name}.{ending}")
+    return Outcome(f"figures: adaptive, {len(runs)} scenes")
+
+
+def _curves(runs, adaptive, uniform):
+    """Costs and bounds of both runs of each scene, by the column of the cost in each."""
+    return {
+        scene: tuple(
+            (frame[column].tolist(), frame["upper"].tolist())
+            for frame, column in zip(pair, (adaptive, uniform), strict=True)
+        )
+        for scene, pair in runs.items()
+    }

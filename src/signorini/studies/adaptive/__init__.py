@@ -1,0 +1,1 @@
+"""Adaptive against uniform meshes: unknowns and time to a guaranteed error."""

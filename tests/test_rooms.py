@@ -9,9 +9,10 @@ PACKAGE = Path(__file__).parents[1] / "src/signorini"
 # From the ground floor up; docs/architecture.md says what each is for.
 FLOORS = (
     *("exceptions", "wording", "work", "chunks", "memory", "storage"),
-    *("formula", "mesh", "fem", "exact", "solvers", "errors", "certificate", "scene"),
+    *("formula", "mesh", "fem", "exact", "solvers", "errors", "certificate", "adapt", "scene"),
     *("judge", "generated", "rivals", "open_choices", "report", "publication", "figures", "api"),
-    *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability", "studies.theory"),
+    *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability"),
+    *("studies.theory", "studies.adaptive"),
     *("commands", "__main__"),
 )
 

@@ -7,7 +7,13 @@ import pytest
 from signorini.commands.catalogue import CATALOGUE
 from signorini.commands.sources import sources
 
-STUDIES = ("The benchmark", "The sensitivity study", "The stability suite", "The theory study")
+STUDIES = (
+    "The benchmark",
+    "The sensitivity study",
+    "The stability suite",
+    "The theory study",
+    "The adaptive study",
+)
 OTHERS = [name for title, found in CATALOGUE.items() if title not in STUDIES for name in found]
 
 
@@ -24,6 +30,7 @@ MEASURING = {
     "sensitivity": "sensitivity errors",
     "stability": "stability success",
     "theory": "theory estimates",
+    "adaptive": "adapt",
 }
 
 

@@ -47,7 +47,8 @@ def name():
     if "signorini" not in words:
         return "snakemake" if "snakemake" in words else Path(sys.argv[0]).name
     words = words[words.index("signorini") + 1:]
-    count = 2 if words[:1] in (["benchmark"], ["sensitivity"], ["stability"], ["theory"]) else 1
+    groups = ("benchmark", "sensitivity", "stability", "theory", "adaptive")
+    count = 2 if words and words[0] in groups else 1
     return " ".join(words[:count])
 
 def tell():

@@ -25,7 +25,16 @@ def declared(tmp_path_factory):
     project = Project.fresh(tmp_path_factory.mktemp("loads") / "project")
     project.ask_for("paper", "small")
     files = ["results/paper/paper.pdf", "results/paper/vtu/P1.vtu", "results/smooth/expect.txt"]
-    targets = [*files, "all", "all_scenes", "benchmark", "sensitivity", "stability", "theory"]
+    targets = [
+        *files,
+        "all",
+        "all_scenes",
+        "benchmark",
+        "sensitivity",
+        "stability",
+        "theory",
+        "adaptive",
+    ]
     return inputs_of_commands(
         project.build(*targets, "--dry-run", "--forceall", "--quiet", "host").text
     )

@@ -35,7 +35,7 @@ class Goal:
     start : int
         Level of the first mesh.
     max_dofs : int
-        Free degrees of freedom of the element beyond which no mesh is solved.
+        Degrees of freedom of the element, fixed ones included, beyond which no mesh is solved.
     max_seconds : float
         After which no further mesh is begun.
     uniform : bool

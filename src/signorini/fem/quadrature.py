@@ -1,5 +1,7 @@
 """Quadrature rules on a triangle, as barycentric points and weights that sum to one."""
 
+from functools import cache
+
 import numpy as np
 
 from signorini.exceptions import SceneError
@@ -59,6 +61,7 @@ def triangle_rule(rule, number_of_triangles=0):
     return _collapsed_gauss(rule)
 
 
+@cache
 def _collapsed_gauss(degree):
     """Gauss-Legendre product rule on the square, collapsed to the triangle; exact to `degree`.
 
@@ -69,11 +72,14 @@ def _collapsed_gauss(degree):
     t, wt = interval_rule(degree)
     s, t = (a.ravel() for a in np.meshgrid(s, t))
     weights = 2.0 * np.outer(wt, ws).ravel() * (1.0 - s)
-    return np.stack([(1.0 - s) * (1.0 - t), s, (1.0 - s) * t]), weights
+    return _kept(np.stack([(1.0 - s) * (1.0 - t), s, (1.0 - s) * t]), weights)
 
 
+@cache
 def interval_rule(degree):
     """Gauss-Legendre points and weights on [0, 1], exact for polynomials up to `degree`.
+
+    They are computed once, and cannot be written to.
 
     Examples
     --------
@@ -84,4 +90,10 @@ def interval_rule(degree):
     0.25
     """
     x, w = np.polynomial.legendre.leggauss(degree // 2 + 1)
-    return 0.5 * (x + 1.0), 0.5 * w
+    return _kept(0.5 * (x + 1.0), 0.5 * w)
+
+
+def _kept(points, weights):
+    """A rule that all who ask for it share."""
+    points.flags.writeable = weights.flags.writeable = False
+    return points, weights

@@ -49,7 +49,7 @@ def draw_bounds(runs, column, label):
 
 def _show_decades(axes, pair):
     """Let both axes run over whole decades, labelled at those alone."""
-    values = [sum((list(curve[k]) for curve in pair), []) for k in (0, 1)]
+    values = [[value for curve in pair for value in curve[k]] for k in (0, 1)]
     limits = axes.set_xlim, axes.set_ylim
     for axis, shown, set_limits in zip((axes.xaxis, axes.yaxis), values, limits, strict=True):
         exponents = [math.log10(value) for value in shown]

@@ -8,7 +8,7 @@ from signorini.wording import nearest
 
 TABLE, SURFACE = "table", "surface"
 # Names that other files of LaTeX have.
-TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory")
+TAKEN = ("macros", "paper", "benchmark", "sensitivity", "stability", "theory", "adaptive")
 _PLAIN = re.compile(r"[\w.+@ /-]+")
 
 

@@ -21,7 +21,7 @@ RULES = {
 COMPUTING = re.compile(
     r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers"
     r"|errors\.measure|report\.field"
-    r"|open_choices\.\w+|studies\.sensitivity\.errors|studies\.theory\.estimates|adapt\.loop)"
+    r"|open_choices\.\w+|studies\.sensitivity\.errors|studies\.theory\.estimates)"
     r" import (?!count_solves|[A-Z]+\b)",
     re.M,
 )

@@ -91,15 +91,15 @@ def check_parts_meet(mesh, datum):
     seen, values = np.zeros((2, mesh.number_of_vertices))
     for name, own in datum.parts.items():
         vertices = mesh.boundary_vertices(part_key(name))
-        found = own(*mesh.points(vertices), check=False)
+        new = own(*mesh.points(vertices), check=False)
         before = values[vertices]
-        size = np.maximum(np.abs(found), np.abs(before))
-        jumps = (seen[vertices] > 0) & (np.abs(found - before) > _ROUNDING * size)
+        size = np.maximum(np.abs(new), np.abs(before))
+        jumps = (seen[vertices] > 0) & (np.abs(new - before) > _ROUNDING * size)
         if jumps.any():
             k = int(np.argmax(jumps))
             x, y = mesh.points(vertices[k : k + 1])[:, 0]
             raise SceneError(
-                f"{datum.field}.{name}: {found[k]:.6g} at ({x:.6g}, {y:.6g}), where another part "
+                f"{datum.field}.{name}: {new[k]:.6g} at ({x:.6g}, {y:.6g}), where another part "
                 f"of {datum.field} has {before[k]:.6g}; let the values of both meet there"
             )
-        seen[vertices], values[vertices] = 1.0, found
+        seen[vertices], values[vertices] = 1.0, new

@@ -86,5 +86,5 @@ def read_coefficient(value):
     >>> read_coefficient({"steel": 50, "copper": 400}).numbers["copper"]
     400
     """
-    kind = BySubdomain if isinstance(value, dict) else Formula
-    return kind(value, "data.coefficient")
+    datum_class = BySubdomain if isinstance(value, dict) else Formula
+    return datum_class(value, "data.coefficient")

@@ -15,7 +15,8 @@ from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
 from signorini.solvers.contact import solve_contact
-from signorini.solvers.line_elimination import EdgeLines, VertexLines, orient
+from signorini.solvers.line_elimination import EdgeLines, VertexLines
+from signorini.solvers.oriented_grid import orient
 from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     ErrorEstimates,

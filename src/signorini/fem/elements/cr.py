@@ -86,8 +86,8 @@ class _CR(Element):
             np.zeros((rows, grid.nx + 1)),
             np.zeros((rows, grid.nx)),
         )
-        for kind, local in enumerate(parts):
-            for target, part in zip(_facets_on_grid(grid, edges, kind), local, strict=True):
+        for half, local in enumerate(parts):
+            for target, part in zip(_facets_on_grid(grid, edges, half), local, strict=True):
                 target += part
         grid.add_edges(b, first, *edges)
 
@@ -97,10 +97,10 @@ class _CR(Element):
         return ElementTriCR()
 
 
-def _facets_on_grid(grid, edges, kind):
-    r"""Views of the three facets (01, 12, 02) of all triangles of one kind.
+def _facets_on_grid(grid, edges, half):
+    r"""Views of the three facets (01, 12, 02) of one half of all cells.
 
-    The triangles of a cell, the lower one (kind 0) and the upper one, by ``grid.diagonal``::
+    The triangles of a cell, the lower one (half 0) and the upper one, by ``grid.diagonal``::
 
             falling             rising
          +-----h-----+       +-----h-----+
@@ -112,7 +112,7 @@ def _facets_on_grid(grid, edges, kind):
     horizontal, vertical, diagonal = edges
     below, above = horizontal[:-1], horizontal[1:]
     left, right = vertical[:, :-1], vertical[:, 1:]
-    lower = kind == 0
+    lower = half == 0
     leg = below if lower else above
     if grid.diagonal == "rising":
         return right if lower else left, diagonal, leg

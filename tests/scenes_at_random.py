@@ -105,9 +105,8 @@ def scenes(draw):
     data = {"f": draw(DATA)}
     if draw(st.integers(0, 9)) == 7:
         data["f"] = draw(NONSENSE)
-    data |= draw(
-        st.fixed_dictionaries({}, optional={"g": DATA, "dirichlet": DATA, "obstacle": DATA})
-    )
+    names = ("g", "dirichlet", "obstacle", "contact_flux")
+    data |= draw(st.fixed_dictionaries({}, optional=dict.fromkeys(names, DATA)))
     if draw(st.integers(0, 3)) == 2:
         data["coefficient"] = draw(COEFFICIENTS)
     polygon = domain["kind"] == "polygon"
@@ -115,6 +114,7 @@ def scenes(draw):
     return {
         "domain": domain,
         "boundary": draw(boundaries(domain)),
+        "constraint": draw(st.sampled_from(["lower", "lower", "upper"])),
         "data": data,
         "levels": [n],
         "load_quadrature": draw(st.sampled_from(["centroid", "exact", "vertices", 3])),

@@ -3,7 +3,7 @@
 from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.publication.check import check_publication
-from signorini.scene.read import check_name, read_scene
+from signorini.scene.read import check_name, check_points, read_scene, scene_of_point
 from signorini.scene.validated import keep_validated
 from signorini.wording import listed
 
@@ -15,6 +15,8 @@ def scene(name):
     if asked.problem_statement.needs_mesh:
         check_once(asked)
     check_publication(asked)
+    if asked.written:
+        check_sweep_once(asked)
     return asked
 
 
@@ -40,10 +42,21 @@ def check_once(asked):
     domain = asked.document["domain"]
     files = files_read(domain["file"]) if domain["kind"] == "mesh" else []
     seen = as_json([asked.statement, digest(files), digest_of_checks()])
+    once(seen, asked.check)
+
+
+def check_sweep_once(asked):
+    """The same for the scenes of all points of a sweep."""
+    seen = as_json([asked.written, digest(modules_from("signorini.scene.read", reader=True))])
+    once(seen, lambda: check_points(asked))
+
+
+def once(seen, check):
+    """Call a check, unless it has passed what it saw."""
     mark = Path(".snakemake/checked", hashlib.sha256(seen.encode()).hexdigest())
     if mark.is_file():
         return
-    asked.check()
+    check()
     with suppress(OSError):  # it will be checked again
         mark.parent.mkdir(parents=True, exist_ok=True)
         mark.touch()

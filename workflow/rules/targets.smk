@@ -21,7 +21,8 @@ def scene_output(name):
     files += ["expect.txt"] if "expect" in asked.document else []
     files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
     files += (named_figures(name) or ["figures"]) if "figures" in outputs else []
-    return solutions(name) + [f"results/{name}/{file}" for file in files]
+    built = [f"results/{name}/{file}" for file in files]
+    return solutions(name) + built + sweep_output(name)
 
 
 def all_scenes():
@@ -42,6 +43,9 @@ def untypeset():
         if WITHOUT and "manuscript" in scene(name).document.get("publication", {})
     ]
 
+
+if workflow.is_main_process:
+    tell_sweeps(CONFIG["scenes"])
 
 if workflow.is_main_process and untypeset():
     # Snakemake's own onsuccess is silent where there is nothing to do.

@@ -34,6 +34,12 @@ CATALOGUE = {
         "gallery": "draw the solutions of many scenes on one sheet",
         "vtu": "write a solution as VTU, for ParaView",
     },
+    "A sweep": {
+        "sweep": "solve every point of a scene's sweep, gather and draw them",
+        "sweep-points": "solve the points of a sweep, or a bundle of them",
+        "sweep-table": "gather the points of a sweep in one table, and sum it up",
+        "sweep-figure": "draw a sweep over the values of a key",
+    },
     "A paper": {
         "compare": "compare errors and slopes with published numbers",
         "verify": "fail if a published number is not met",

@@ -11,7 +11,7 @@ example:
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
 from signorini.publication.check import check_publication
-from signorini.scene.read import read_scene
+from signorini.scene.read import check_points, read_scene
 from signorini.scene.validated import write_validated
 
 
@@ -25,6 +25,7 @@ def run(arguments):
     """Validate, and write the result where asked to."""
     scene = read_scene(arguments.scene)
     scene.check()
+    check_points(scene)
     check_publication(scene)
     if arguments.output:
         write_validated(arguments.output, scene)

@@ -7,6 +7,7 @@ a table of such texts. So does a text that names a template of a page.
 """
 
 import ast
+import hashlib
 import re
 from functools import cache
 from pathlib import Path
@@ -16,7 +17,7 @@ from signorini.commands.catalogue import module_of
 PACKAGE = "signorini"
 _ROOT = Path(__file__).parents[1]
 # Jobs read the validated scene: no command but those named here reads a scene's own file.
-_READER, _READERS = f"{PACKAGE}.scene.read", ("check", "scenes", "new")
+_READER, _READERS = f"{PACKAGE}.scene.read", ("check", "scenes", "new", "sweep", "sweep-points")
 # A text that is the name of a module, alone or before a colon.
 _MODULE = re.compile(rf'"({PACKAGE}(?:\.\w+)+)[":]')
 # What every command passes through.
@@ -65,6 +66,23 @@ def modules_from(*names, reader=False):
             loaded.add(path)
             waiting += _named(path)
     return tuple(sorted(loaded))
+
+
+@cache
+def content_of(command):
+    """A digest of what is in the files that a command can load; finding them takes a moment.
+
+    Parameters
+    ----------
+    command : str
+        One of `catalogue.commands`.
+
+    Returns
+    -------
+    str
+    """
+    digests = (hashlib.sha256(path.read_bytes()).hexdigest() for path in sources(command))
+    return hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
 @cache

@@ -6,12 +6,13 @@ from functools import cache
 from pathlib import Path
 
 from signorini.errors.rates import reference_note
-from signorini.exceptions import SceneError
+from signorini.exceptions import SceneError, SignoriniError
 from signorini.scene.checks import check_critical_points, check_document
 from signorini.scene.publication import check_names, with_paths
 from signorini.scene.scene import Scene, naming
 from signorini.scene.schema import validated
 from signorini.scene.strict_yaml import load_yaml
+from signorini.scene.sweep import check_sweep, sweep_points, with_values
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 _RESERVED = ("meshes", "studies", "quick")
@@ -112,6 +113,50 @@ def read_mapping(mapping, name, folder):
     return _validated_scene(plain(mapping), name, Path(folder, name))
 
 
+def scene_of_point(scene, point):
+    """The scene of a point of a sweep: the scene with the point's values, and no sweep.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a sweep.
+    point : Point
+        Of `sweep.sweep_points`.
+
+    Returns
+    -------
+    Scene
+        Validated, but for what `Scene.check` checks.
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        One line that names the file, the point, the field, the value and the remedy.
+    """
+    written = with_values(scene.written, point.values)
+    try:
+        return _validated_scene(written, scene.name, scene.source)
+    except SignoriniError as error:
+        told = str(error).removeprefix(f"{scene.source}: ")
+        raise type(error)(f"{scene.source}: at {point.told} of the sweep: {told}") from None
+
+
+def check_points(scene):
+    """Check the scene of every point of a sweep, as far as its document shows.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        As `scene_of_point`.
+    """
+    for point in sweep_points(scene.document.get("sweep", {})) if scene.written else ():
+        scene_of_point(scene, point)
+
+
 def plain(value):
     """A value as YAML would give it: tuples and arrays as lists, numbers of NumPy as Python's."""
     if isinstance(value, dict):
@@ -126,6 +171,9 @@ def plain(value):
 def _validated_scene(written, name, path):
     """A `Scene`, from a document as it was written, and the path of its file."""
     document = validated(written, scene_schema(), path)
+    if "sweep" in document:
+        with naming(path):
+            check_sweep(document["sweep"], scene_schema())
     truth = document["truth"]["kind"]
     if truth == "none" and "outputs" not in written:
         document["outputs"] = []
@@ -139,7 +187,8 @@ def _validated_scene(written, name, path):
             check_names(document)
             document["publication"] = with_paths(document["publication"], path)
         note = reference_note(document["truth"], document["levels"], document["elements"])
-        scene = Scene(name, document, path, note)
+        kept = written if "sweep" in document else None
+        scene = Scene(name, document, path, note, kept)
         check_critical_points(document, scene.problem_statement.exact)
     return scene
 

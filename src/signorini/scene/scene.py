@@ -23,12 +23,15 @@ class Scene:
     reference_note : str, optional
         What a reference that is hardly finer than the finest level does to errors and slopes, see
         `errors.rates.reference_note`; None where the truth is no reference, or fine enough.
+    written : dict, optional
+        The document as it was written, where it has a sweep, whose points start from it.
     """
 
     name: str
     document: dict
     source: Path | None = None
     reference_note: str | None = None
+    written: dict | None = None
 
     @classmethod
     def from_dict(cls, mapping, name="scene", folder="."):

@@ -40,6 +40,22 @@ class ProblemStatement:
 
         return make_domain(self.domain, self.boundary, self.coarsest)
 
+    def on(self, domain):
+        """The same statement on a domain that was made already.
+
+        Parameters
+        ----------
+        domain : Rectangle or Refined
+            Of the sections ``domain`` and ``boundary``, and of the coarsest level.
+
+        Returns
+        -------
+        ProblemStatement
+        """
+        shared = replace(self)
+        shared.__dict__["triangulations"] = domain
+        return shared
+
     @property
     def needs_mesh(self):
         """Whether more can be wrong than a document shows.

@@ -50,7 +50,8 @@ def keep_validated(path, scene):
 
 def _values(scene):
     values = {"name": scene.name, "source": str(scene.source), "document": scene.document}
-    return values | {"reference_note": scene.reference_note}
+    swept = {} if scene.written is None else {"written": scene.written}
+    return values | {"reference_note": scene.reference_note} | swept
 
 
 def read_validated(path):
@@ -70,11 +71,12 @@ def read_validated(path):
         If the file is missing, altered, or not a validated scene.
     """
     values = read_json(path)
-    if not (isinstance(values, dict) and sorted(values) == sorted(_KEYS)):
+    if not (isinstance(values, dict) and {*values} - {"written"} == {*_KEYS}):
         raise StorageError(f"{path}: not a validated scene; delete it and rerun")
     return Scene(
         name=values["name"],
         document=values["document"],
         source=Path(values["source"]),
         reference_note=values["reference_note"],
+        written=values.get("written"),
     )

@@ -1,0 +1,1 @@
+"""Sweeps: the same scene with other values, point by point, and one table of all."""

@@ -1,0 +1,36 @@
+"""What a sweep tells of the contact part of each solution."""
+
+import numpy as np
+
+from signorini.fem.contact_line import binding_pieces, contact_rows
+
+QUANTITIES = ("resultant", "contact_length", "critical_count", "first_critical", "last_critical")
+
+
+def contact_quantities(mesh, solution):
+    """What happens on the contact part, in a few numbers.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+        The solution's.
+    solution : StoredSolution
+
+    Returns
+    -------
+    dict
+        ``resultant``: the contact force in all, unit of k u. ``contact_length``: the length on
+        which the constraint binds. ``critical_count``: the number of critical points.
+        ``first_critical``, ``last_critical``: the arc length of the first and of the last one along
+        the contact part, unit of length; None where there is none.
+    """
+    pieces = binding_pieces(mesh, solution)
+    marks = [row["critical"] for row in contact_rows(mesh, solution)]
+    places = [place for place in marks if place is not None]
+    return {
+        "resultant": float(solution.force.sum()),
+        "contact_length": float(np.hypot(*(pieces[:, 1] - pieces[:, 0]).T).sum()),
+        "critical_count": len(places),
+        "first_critical": min(places, default=None),
+        "last_critical": max(places, default=None),
+    }

@@ -10,7 +10,8 @@ PACKAGE = Path(__file__).parents[1] / "src/signorini"
 FLOORS = (
     *("exceptions", "wording", "work", "chunks", "memory", "storage"),
     *("formula", "mesh", "fem", "exact", "solvers", "errors", "certificate", "adapt", "scene"),
-    *("judge", "generated", "rivals", "open_choices", "report", "sweeps", "publication", "figures", "api"),
+    *("judge", "generated", "rivals", "open_choices"),
+    *("report", "sweeps", "publication", "figures", "api"),
     *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability"),
     *("studies.theory", "studies.adaptive"),
     *("commands", "__main__"),

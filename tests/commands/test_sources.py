@@ -51,7 +51,8 @@ def reached(*starts, without=()):
 def test_every_file_that_a_command_names_is_among_its_sources(command):
     program = [SOURCE / f"signorini/{name}.py" for name in ("__main__", "commands/program")]
     reader = SOURCE / "signorini/scene/read.py"
-    without = () if command in ("check", "new", "scenes") else (reader,)
+    readers = ("check", "new", "scenes", "sweep", "sweep-points")
+    without = () if command in readers else (reader,)
     expected = reached(*files_of(module_of(command)), *program, without=without)
     found = {path for path in sources(command) if path.suffix == ".py"}
     assert found == expected

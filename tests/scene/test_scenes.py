@@ -16,7 +16,7 @@ NAMES = sorted(path.stem for path in FOLDER.glob("*.yaml"))
 SHIPPED = {
     "paper", "paper-exact", "corner", "punch", "smooth", "biactive", "patch", "uniform-load",
     "many-contacts", "obstacle", "glacis", "l-shape", "gasket", "figure-2-1", "annulus",
-    "paper-digits",
+    "paper-digits", "punch-widths",
 }  # fmt: skip
 
 

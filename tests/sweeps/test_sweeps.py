@@ -148,7 +148,7 @@ def test_other_code_solves_again(read, tmp_path, solved):
 
 
 def test_points_that_state_the_same_problem_solve_it_once(read, tmp_path, solved):
-    sweep = "sweep: {norms: [[l2], [h1]], truth.parameters.half_width: [0.25, 0.5], slope: [fit]}\n"
+    sweep = "sweep: {norms: [[l2], [h1]], truth.parameters.half_width: [0.25, 0.5]}\n"
     records = records_of(read(PUNCH + sweep), tmp_path / "out")
     assert len(records) == 4
     assert len(solved) == 2 * 4
@@ -193,6 +193,20 @@ def test_a_point_has_its_scene_beside_its_numbers(read, tmp_path):
     own = read_validated(tmp_path / "out/half_width=0.25/scene.json")
     assert own.truth["parameters"] == {"half_width": 0.25}
     assert own.problem("P1", 8).contact.size == 15
+
+
+def test_quantities_of_the_scene_are_columns(read, tmp_path):
+    """The flux through the contact part is the contact force."""
+    text = PUNCH + "quantities: {through: {kind: flux}, half: {kind: flux, factor: 0.5}}\n"
+    scene = read(text + WIDTHS)
+    rows = sweep_rows(scene.document["sweep"], records_of(scene, tmp_path / "out"))
+    for found in rows:
+        assert found["quantity.through"] == pytest.approx(found["resultant"], rel=1e-12)
+        assert found["quantity.half"] == pytest.approx(found["resultant"] / 2, rel=1e-12)
+    frame = summary(rows)
+    assert {"quantity.through", "quantity.half"} < set(frame["quantity"])
+    labels = [panel["label"] for panel in sweep_curves(scene.document["sweep"], rows)["panels"]]
+    assert labels[:2] == ["through", "half"]
 
 
 @pytest.mark.parametrize("count", [1, 24, 50, 199, 1000])

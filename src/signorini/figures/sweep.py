@@ -53,7 +53,7 @@ def draw_sweep(curves):
 def _draw_panel(axes, panel, curves):
     for series in panel["series"]:
         axes.plot(series["x"], series["y"], **_style(series, panel), label=_name(series))
-    axes.set(xlabel=_plain(curves["label"]), ylabel=panel["label"])
+    axes.set(xlabel=_plain(curves["label"]), ylabel=_label(panel))
     axes.set_xscale("log" if curves["log"] else "linear")
     if panel["log"]:
         axes.set_yscale("log")
@@ -62,6 +62,11 @@ def _draw_panel(axes, panel, curves):
         axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
     if curves["ticks"] is not None:
         axes.set_xticks(range(len(curves["ticks"])), map(_plain, curves["ticks"]))
+
+
+def _label(panel):
+    """What a panel shows; labels of norms are formulas already."""
+    return panel["label"] if "$" in panel["label"] else _plain(panel["label"])
 
 
 def _style(series, panel):

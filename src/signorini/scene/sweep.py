@@ -14,7 +14,8 @@ from signorini.wording import nearest, shown
 
 MOST_POINTS = 10_000
 # Sections that no solution and no error depends on.
-UNSWEPT = ("title", "outputs", "expect", "sweep", "publication")
+UNSWEPT = ("title", "slope", "table", "outputs", "expect", "sweep", "publication")
+_LEFT_OUT = ("table", "outputs", "expect", "sweep", "publication")  # of the scene of a point
 SPACINGS = ("linear", "log")
 _RANGE = ("from", "to", "count", "spacing")
 _DIGITS = 12  # of a value within a range, so that another count meets the same values
@@ -122,7 +123,7 @@ def with_values(document, values):
     >>> with_values({"data": {"f": 1, "g": 0}, "sweep": {"data.f": [2]}}, {"data.f": 2})
     {'data': {'f': 2, 'g': 0}, 'outputs': []}
     """
-    kept = {key: part for key, part in document.items() if key not in UNSWEPT or key == "title"}
+    kept = {key: part for key, part in document.items() if key not in _LEFT_OUT}
     changed = copy.deepcopy(kept) | {"outputs": []}
     for key, value in values.items():
         *sections, last = key.split(".")

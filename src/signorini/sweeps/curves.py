@@ -5,6 +5,7 @@ from signorini.errors.norms import NORMS
 # Shown where they are known, in this order; the first four.
 SHOWN = ("l2", "h1", "resultant", "contact_length", "energy", "trace_l2", "last_critical")
 _MOST_PANELS = 4
+_QUANTITY = "quantity."  # before the quantities of the scene, which come first
 LABELS = {
     "resultant": "contact force in all",
     "contact_length": "length in contact",
@@ -41,7 +42,8 @@ def sweep_curves(section, rows):
         raise ValueError("sweep: no point was solved; there is nothing to draw")
     places, ticks = _places([row[key] for row in solved])
     panels = []
-    for name in SHOWN:
+    asked = [name for name in solved[0] if name.startswith(_QUANTITY)]
+    for name in (*asked, *SHOWN):
         if any(row.get(name) not in (None, "") for row in solved) and len(panels) < _MOST_PANELS:
             panels.append(_panel(name, solved, key, others, places))
     log = isinstance(section[key], dict) and section[key].get("spacing") == "log"
@@ -81,7 +83,7 @@ def _panel(name, rows, key, others, places):
         order = sorted(range(len(x)), key=x.__getitem__)
         x, y = [x[k] for k in order], [y[k] for k in order]
         told.append({"element": element, "variant": variant, "x": x, "y": y})
-    label = NORMS[name].axis if name in NORMS else LABELS[name]
+    label = NORMS[name].axis if name in NORMS else LABELS.get(name, name.removeprefix(_QUANTITY))
     return {"label": label, "log": name in NORMS and _spans_a_decade(told), "series": told}
 
 

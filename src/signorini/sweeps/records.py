@@ -10,7 +10,7 @@ from signorini.scene.validated import write_validated
 from signorini.storage import read_json, write_json
 from signorini.sweeps.solves import Solver
 
-_ASKED = ("elements", "levels", "truth", "norms", "norm_quadrature", "solver")
+_ASKED = ("elements", "levels", "truth", "norms", "norm_quadrature", "quantities", "solver")
 
 
 def solve_points(scene, points, folder, library, tell=None):

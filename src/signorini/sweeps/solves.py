@@ -7,10 +7,13 @@ from signorini.errors.measure import against_exact, against_reference, row
 from signorini.errors.norms import RATED, REFERENCE
 from signorini.fem.problem import discretize_on
 from signorini.mesh.domain import make_domain
+from signorini.report.outputs import output_rows
 from signorini.scene.memory_check import check_level
 from signorini.solvers import solve
 from signorini.solvers.stored import stored
 from signorini.sweeps.quantities import contact_quantities
+
+QUANTITY = "quantity."  # before the name of a quantity of the scene, where it heads a column
 
 
 class Solver:
@@ -36,7 +39,8 @@ class Solver:
         -------
         list of dict
             The columns of errors.csv, the errors where there is a truth; ``rate_l2``, ... between
-            each level and the one before; and `contact_quantities`.
+            each level and the one before; `contact_quantities`; and by `QUANTITY` and its name
+            each of the scene's quantities.
 
         Raises
         ------
@@ -52,19 +56,21 @@ class Solver:
     def _rows(self, scene, statement, found):
         domain = statement.triangulations
 
-        def solution_of(element, n):
+        def solved(element, n):
             if (element, n) not in found:
                 found[element, n] = _solve(scene, statement, element, n)
             return found[element, n]
 
-        errors = _errors(scene, statement, solution_of)
+        errors = _errors(scene, statement, solved)
         for element in scene.elements:
             before = None
             for n in scene.levels:
-                solution = solution_of(element, n)
+                problem, solution = solved(element, n)
                 told = row(solution, errors)
                 contact = contact_quantities(domain.level(n), solution)
-                yield told | _rates(before, told) | contact
+                asked = output_rows(problem, solution, scene.document["quantities"])
+                named = {f"{QUANTITY}{found['name']}": found["value"] for found in asked}
+                yield told | _rates(before, told) | contact | named
                 before = told
 
     def _domain_of(self, scene):
@@ -85,14 +91,14 @@ class Solver:
 
 
 def _solve(scene, statement, element, n):
-    """A stored solution of one element and level."""
+    """The problem of one element and level, and its stored solution."""
     domain, method = statement.triangulations, scene.document["solver"]["method"]
     check_level(statement, element, n, method, domain)
     problem = discretize_on(domain.level(n), element, statement)
-    return stored(problem, solve(problem, method), n, domain.mesh_size(n))
+    return problem, stored(problem, solve(problem, method), n, domain.mesh_size(n))
 
 
-def _errors(scene, statement, solution_of):
+def _errors(scene, statement, solved):
     """A function from a solution to its errors, of which there are none without a truth."""
     truth, norms, domain = scene.truth, scene.document["norms"], statement.triangulations
     if truth["kind"] == "none":
@@ -100,7 +106,7 @@ def _errors(scene, statement, solution_of):
     if truth["kind"] == "exact":
         return against_exact(statement, domain, norms)
     quadrature = scene.document["norm_quadrature"]
-    reference = solution_of(truth["element"], truth["n"])
+    _, reference = solved(truth["element"], truth["n"])
     coefficient = scene.document["data"]["coefficient"]
     return against_reference(reference, domain, norms, quadrature, coefficient)
 

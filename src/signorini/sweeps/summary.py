@@ -6,6 +6,7 @@ import pandas as pd
 
 from signorini.errors.norms import RATED
 from signorini.sweeps.quantities import QUANTITIES
+from signorini.sweeps.solves import QUANTITY
 
 SUMMED = (*RATED, *(f"rate_{norm}" for norm in RATED), *QUANTITIES)
 _COLUMNS = (
@@ -50,7 +51,9 @@ def summary(rows):
     told = []
     for element, own in finest.groupby("element", sort=False):
         own = own.set_index("point")
-        told += [_line(element, name, own[name]) for name in SUMMED if name in own]
+        names = [name for name in SUMMED if name in own]
+        names += [name for name in own if name.startswith(QUANTITY)]
+        told += [_line(element, name, own[name]) for name in names]
     return pd.DataFrame([line for line in told if line], columns=_COLUMNS)
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from signorini import solvers
 from signorini.api.types import Floats
 from signorini.exceptions import SceneError
+from signorini.solvers import Solution as SolverSolution
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Solution(solvers.Solution):
+class Solution(SolverSolution):
     """What was found, its proof, and what it tells.
 
     Made by `solve`. Its fields, frozen, are those of `signorini.solvers.Solution`: ``u``, the

@@ -1,11 +1,11 @@
 """`solve`: from a problem to the solution that tells of itself."""
 
-from signorini import solvers
 from signorini.api.arguments import described
 from signorini.api.solution import Solution
 from signorini.api.types import Booleans
 from signorini.exceptions import SceneError
 from signorini.fem.problem import Problem
+from signorini.solvers import solve as solve_discrete
 
 
 def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None) -> Solution:
@@ -48,4 +48,4 @@ def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None)
             f"problem: {described(problem)} is no Problem; "
             "make one by signorini.problem(...) or scene.problem(element, n)"
         )
-    return Solution(**vars(solvers.solve(problem, method, guess)))
+    return Solution(**vars(solve_discrete(problem, method, guess)))

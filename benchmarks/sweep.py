@@ -10,6 +10,7 @@ other work.
 """
 
 import argparse
+import os
 import resource
 import shutil
 import subprocess
@@ -41,7 +42,10 @@ LEFT_OUT = shutil.ignore_patterns(
 def spent(folder, *command):
     """Processor seconds of a command and of all that it started, and its wall clock seconds."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    subprocess.run([sys.executable, *command], cwd=folder, check=True, capture_output=True)
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
+    subprocess.run(
+        [sys.executable, *command], cwd=folder, env=environment, check=True, capture_output=True
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
     return used, time.perf_counter() - start

@@ -74,7 +74,7 @@ def sloping(
         "force": np.maximum(x[contact] - turn, 0) * height / n,
         "threshold": None,
     }
-    return mesh, SimpleNamespace(**found, **state, lower=np.zeros(contact.size))
+    return mesh, SimpleNamespace(**found, **state, lower=np.zeros(contact.size), h=1 / n)
 
 
 def sloping_field(*arguments, **options):

@@ -45,6 +45,7 @@ def solution(mesh, element, binds=lambda x, y: x + y > 0.7, u=lambda x, y: 1 + x
     return SimpleNamespace(
         element=element,
         n=8,
+        h=0.125,
         u=values,
         contact=contact,
         active=active,

@@ -34,6 +34,11 @@ def test_contact_line_shows_the_finest_level():
         np.testing.assert_allclose(y, [row[column] for row in rows], atol=1e-15)
 
 
+def test_where_h_is_not_1_over_n_the_legend_tells_it():
+    rows = [row | {"h": 0.0519} for row in sloping_rows(n=4)]
+    assert legend(draw_contact_line(rows))[:2] == ["CF (P1), $h = 0.052$", "NCF (CR), $h = 0.052$"]
+
+
 def test_critical_points_of_the_contact_line_are_marked_in_both_panels():
     for axes in draw_contact_line(sloping_rows()).axes:
         upright = [

@@ -204,3 +204,26 @@ def test_a_note_stands_under_the_table():
         errors, [], norms=["critical_points"], elements=["P1"]
     )
     assert "Note" not in markdown_table(errors, [], norms=["l2"], elements=["P1"], note="")
+
+
+def test_where_h_is_not_1_over_n_the_table_shows_it():
+    """On a mesh from a file; a level is then no width."""
+    errors = [
+        {"element": "P1", "n": n, "h": 0.2075 / n, "l2": 0.1 / n**2, "floor": ""} for n in (1, 2, 4)
+    ]
+    table = markdown_table(errors, [], norms=["l2"], elements=["P1"])
+    assert table.splitlines()[0] == "| N | h | L2 P1 |".replace("P1", "CF")
+    assert [line.split(" | ")[1] for line in table.splitlines()[2:5]] == [
+        "0.2075",
+        "0.10375",
+        "0.051875",
+    ]
+    tex = error_table(errors, [], norms=["l2"], elements=["P1"])
+    assert "$N$ & $h$" in tex
+    plain = markdown_table(errors, [], norms=["l2"], elements=["P1"], columns=["n"])
+    assert plain.splitlines()[0] == "| N | L2 CF |"
+
+
+def test_where_h_is_1_over_n_the_table_does_not():
+    errors = [{"element": "P1", "n": n, "h": 1 / n, "l2": 0.1} for n in (2, 3, 7)]
+    assert markdown_table(errors, [], norms=["l2"], elements=["P1"]).startswith("| N | L2 CF |")

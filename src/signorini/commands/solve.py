@@ -26,7 +26,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
     parser.add_argument("--element", choices=ELEMENT_NAMES, help="the finite element")
-    parser.add_argument("--n", type=int, help="the level, 1/h")
+    parser.add_argument("--n", type=int, help="the level")
     parser.add_argument(
         "--reference",
         action="store_true",

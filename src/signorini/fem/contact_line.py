@@ -5,6 +5,7 @@ corners; they are walked as `mesh.paths` says, and the arc length runs on from o
 """
 
 from dataclasses import dataclass, fields
+from math import isclose
 
 import numpy as np
 
@@ -96,12 +97,12 @@ def contact_rows(mesh, solution):
     Returns
     -------
     list of dict
-        A row for each contact dof in the order of the line: ``element``, ``n``; ``component``,
-        counted from 1; arc length ``s``, ``x`` and ``y``, unit of length; ``u`` and ``obstacle``;
-        ``flux``, see `contact_flux`; ``threshold``, what flux is held against, where that is not 0;
-        ``binding``, 1 or 0; ``critical``, the arc length of the
-        critical point between this row and the next of its component (in a closed one the first
-        follows the last), or None. Empty without contact part.
+        A row for each contact dof in the order of the line: ``element``, ``n``; the mesh width
+        ``h`` where it is not 1/n; ``component``, counted from 1; arc length ``s``, ``x`` and ``y``,
+        unit of length; ``u`` and ``obstacle``; ``flux``, see `contact_flux`; ``threshold``, what
+        flux is held against, where that is not 0; ``binding``, 1 or 0; ``critical``, the arc length
+        of the critical point between this row and the next of its component (in a closed one the
+        first follows the last), or None. Empty without contact part.
     """
     element = find_element(solution.element)
     line = _ordered(mesh, element, solution.contact, solution.active)
@@ -122,7 +123,8 @@ def contact_rows(mesh, solution):
         "binding": solution.active[line.which].astype(int),
         "critical": np.where(np.isnan(line.critical), None, line.critical),
     }
-    level = {"element": solution.element, "n": solution.n}
+    width = {} if isclose(solution.n * solution.h, 1.0) else {"h": solution.h}
+    level = {"element": solution.element, "n": solution.n} | width
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     return [level | dict(zip(columns, row, strict=True)) for row in rows]
 

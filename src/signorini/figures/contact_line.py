@@ -105,7 +105,7 @@ def _by_component(line, name):
 def _draw_lines(upper, lower, lines):
     lower.axhline(0, color=FAINT, linewidth=0.5, zorder=1)
     for order, (element, line) in enumerate(lines.items()):
-        label = f"{ELEMENT_FACTS[element].label}, $n = {line['n']}$"
+        label = f"{ELEMENT_FACTS[element].label}, {_level(line)}"
         style = ELEMENT_STYLES[element] | {
             "markersize": 3.2,
             "markevery": -(-len(line["s"]) // MOST_MARKERS),
@@ -118,6 +118,11 @@ def _draw_lines(upper, lower, lines):
     upper.plot(*_by_component(first, "obstacle"), label="obstacle", **style)
     if first["threshold"].any():
         lower.plot(*_by_component(first, "threshold"), label="threshold", **style | THRESHOLD)
+
+
+def _level(line):
+    """What tells the level: n, or the mesh width where that is not 1/n."""
+    return f"$n = {line['n']}$" if line.get("h") is None else f"$h = {line['h']:.2g}$"
 
 
 def _draw_critical_points(upper, lower, lines):

@@ -19,7 +19,8 @@ def finest_lines(rows, elements):
     Returns
     -------
     dict
-        Element -> dict of ``n`` and, for each of `NUMBERS`, an array with NaN for what is missing.
+        Element -> dict of ``n``; ``h``, None where it is 1/n; and, for each of `NUMBERS`, an array
+        with NaN for what is missing.
 
     Raises
     ------
@@ -40,7 +41,9 @@ def finest_lines(rows, elements):
         own = [row for row in rows if row["element"] == element]
         n = max(int(row["n"]) for row in own)
         finest = [row for row in own if int(row["n"]) == n]
-        lines[element] = {name: _column(finest, name) for name in NUMBERS} | {"n": n}
+        width = finest[0].get("h")
+        level = {"n": n, "h": None if width is None else float(width)}
+        lines[element] = {name: _column(finest, name) for name in NUMBERS} | level
     return lines
 
 

@@ -19,7 +19,8 @@ class TableForm:
     levels : sequence of int, optional
         The rows; all that there are where it is None.
     columns : sequence of str, optional
-        What stands before the norms: ``n``, ``h``, ``unknowns``.
+        What stands before the norms: ``n``, ``h``, ``unknowns``. Where it is None, n, and h where
+        that is not 1/n, as on a mesh from a file.
     rates : bool, optional
         Whether each error has its rate from the level before beside it.
     slopes : bool, optional
@@ -47,7 +48,7 @@ class TableForm:
     norms: tuple = PAPER_NORMS
     elements: tuple = ELEMENT_NAMES
     levels: tuple | None = None
-    columns: tuple = ("n",)
+    columns: tuple | None = None
     rates: bool = False
     slopes: bool = True
     kind: str = "mean"

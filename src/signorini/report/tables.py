@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from math import isclose
 
 from signorini.errors.norms import NORMS, REFERENCE
 from signorini.errors.rates import NO_LOGARITHM, ROUND_OFF, SOUND, rate_between, trouble_of
@@ -111,9 +112,10 @@ def markdown_table(errors, rates, /, form=None, **fields):
 def _described(errors, rates, form):
     rows = _by_level(errors, form.levels)
     slopes = _marked_slopes(rates, form.kind) if form.slopes else None
-    leading = [_leading(name, rows, form) for name in form.columns if name in LEADING]
+    names = form.columns or _telling(errors)
+    leading = [_leading(name, rows) for name in names if name in LEADING]
     first = replace(leading[0], foot="slope")
-    groups = [_unknowns(rows, form)] if UNKNOWNS in form.columns else []
+    groups = [_unknowns(rows, form)] if UNKNOWNS in names else []
     groups += [_group(norm, rows, slopes, form) for norm in form.norms]
     return Table(
         leading=(first, *leading[1:]),
@@ -136,7 +138,13 @@ def _by_level(errors, levels):
     return found
 
 
-def _leading(name, rows, form):
+def _telling(errors):
+    """The columns that tell the mesh width: n, and h where that is not 1/n."""
+    sizes = ((int(row["n"]), float(row["h"])) for row in errors if row.get("h"))
+    return ("n",) if all(isclose(n * h, 1.0) for n, h in sizes) else ("n", "h")
+
+
+def _leading(name, rows):
     """One of the columns that all elements share."""
     if name == "n":
         return Column(Title("$N$", "N"), tuple(map(str, rows)))

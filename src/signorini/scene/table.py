@@ -31,7 +31,7 @@ def check_table(document):
                     f"table.{key}: {name} is not among {key} of the scene; add it there, or drop "
                     f"it; {nearest(name, map(str, names))}"
                 )
-    if not {"n", "h"} & set(section["columns"]):
+    if "columns" in section and not {"n", "h"} & set(section["columns"]):
         raise SceneError(
             f"table.columns: {shown(section['columns'])} names no level; add n or h to "
             f"{listed(section['columns'])}"

@@ -276,8 +276,8 @@ class Element(ABC):
         first : int
             The first row of the block.
         parts : list of two ndarray, shape (3, m, nx)
-            For each of the two halves of the cells, in the order of ``grid.corners``: the values for
-            its three local dofs in the m rows.
+            For each of the two halves of the cells, in the order of ``grid.corners``: the values
+            for its three local dofs in the m rows.
         """
 
     @abstractmethod

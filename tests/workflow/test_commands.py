@@ -52,6 +52,11 @@ TRIED = {
         f"rm -f config/scenes/{command.split()[2]}.yaml paper/{command.split()[2]}.tex;"
         f" PYTHONPATH=src python3 -m {command}"
     ),
+    r"signorini macros .*/footing.yaml": lambda command: (  # the scene of the block before
+        "rm -f config/scenes/footing.yaml paper/footing.tex;"
+        " PYTHONPATH=src python3 -m signorini new footing --paper;"
+        f" PYTHONPATH=src python3 -m {command}"
+    ),
     r"signorini .*": lambda command: f"PYTHONPATH=src python3 -m {command}",
     r"snakemake --unlock": str,
     r"snakemake --cores 2": str,  # which has nothing to do in this copy

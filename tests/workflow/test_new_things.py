@@ -120,7 +120,7 @@ def test_a_solver(project):
     """The direct route under another name, that does not take coarse levels."""
     project.write(f"{LIBRARY}/solvers/again.py", SOLVER)
     line = 'METHODS = {\n    "again": ("signorini.solvers.again", "solve_again"),'
-    project.edit(f"{LIBRARY}/solvers/select.py", "METHODS = {", line)
+    project.edit(f"{LIBRARY}/solvers/routes.py", "METHODS = {", line)
     project.edit(SCHEMA, "enum: [auto, fourier,", "enum: [auto, again, fourier,")
     facts, routes = f"{LIBRARY}/fem/element_facts.py", f"{LIBRARY}/scene/memory_check.py"
     project.edit(facts, '"fourier": GRID,', '"fourier": GRID,\n            "again": GRID,')

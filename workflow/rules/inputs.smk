@@ -157,6 +157,11 @@ def mesh_file(wildcards):
     return f"results/meshes/{mesh_key(wildcards.scene)}.npz"
 
 
+def accuracy(wildcards):
+    """How far a scene's problems are solved."""
+    return scene(wildcards.scene).document["solver"]["accuracy"]
+
+
 def method(wildcards):
     """The scene's route."""
     return scene(wildcards.scene).document["solver"]["method"]

@@ -18,6 +18,7 @@ rule solve:
         content=content("solve"),
         statement=statement,
         method=method,
+        accuracy=accuracy,
     shell:
         "python3 -m signorini solve {input.scene:q} --element {wildcards.element} --n {wildcards.n}"
         " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
@@ -39,6 +40,7 @@ rule reference:
         content=content("solve"),
         statement=statement,
         method=method,
+        accuracy=accuracy,
         element=lambda wildcards: scene(wildcards.scene).truth["element"],
         n=lambda wildcards: scene(wildcards.scene).truth["n"],
     shell:

@@ -8,7 +8,12 @@ from signorini.fem.problem import Problem
 from signorini.solvers import solve as solve_discrete
 
 
-def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None) -> Solution:
+def solve(
+    problem: Problem,
+    method: str = "auto",
+    guess: Booleans | None = None,
+    accuracy: str = "full",
+) -> Solution:
     """Solve a discrete Signorini problem.
 
     Parameters
@@ -19,6 +24,9 @@ def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None)
         "auto" takes the cheapest route that applies and says why in the solution.
     guess : ndarray of bool, shape (nc,), optional
         Contact dofs believed to bind, for instance from a coarser level.
+    accuracy : {"full", "discretisation"}
+        "discretisation" ends multigrid where the algebraic error is a tenth of the discretisation
+        error, both estimated, in the energy norm; other routes have no use for it.
 
     Returns
     -------
@@ -48,4 +56,4 @@ def solve(problem: Problem, method: str = "auto", guess: Booleans | None = None)
             f"problem: {described(problem)} is no Problem; "
             "make one by signorini.problem(...) or scene.problem(element, n)"
         )
-    return Solution(**vars(solve_discrete(problem, method, guess)))
+    return Solution(**vars(solve_discrete(problem, method, guess, accuracy)))

@@ -17,6 +17,7 @@ from signorini.fem.problem import discretize_on
 from signorini.scene.memory_check import check_level
 from signorini.scene.scene import naming
 from signorini.solvers import METHODS, solve
+from signorini.solvers.select import ACCURACIES
 from signorini.solvers.stored import write_solution
 
 _log = logging.getLogger(__name__)
@@ -38,6 +39,9 @@ def add_arguments(parser):
         help="the solver; default: the scene's solver.method",
     )
     parser.add_argument(
+        "--accuracy", choices=ACCURACIES, help="how far; default: the scene's solver.accuracy"
+    )
+    parser.add_argument(
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
     add_output(parser, "u and its proof, .npz", required=False)
@@ -48,6 +52,7 @@ def run(arguments):
     scene = scene_of(arguments.scene)
     element, n = _level(scene, arguments)
     method = arguments.method or scene.document["solver"]["method"]
+    accuracy = arguments.accuracy or scene.document["solver"]["accuracy"]
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)
         check_level(scene.problem_statement, element, n, method, domain)
@@ -56,7 +61,7 @@ def run(arguments):
         _log.info("%s n = %d: discretising, %d triangles", element, n, mesh.number_of_triangles)
         problem = discretize_on(mesh, element, scene.problem_statement)
         _log.info("%s n = %d: solving, %d free dofs", element, n, problem.free.size)
-        solution = solve(problem, method)
+        solution = solve(problem, method, accuracy=accuracy)
     if arguments.output:
         write_solution(arguments.output, problem, solution, n, domain.mesh_size(n))
     return Outcome(_told(solution, element, n), _data(solution, element, n))

@@ -4,7 +4,8 @@ import time
 from dataclasses import dataclass
 
 from signorini.exceptions import NotApplicableError, SolverError
-from signorini.solvers.select import METHODS, solve
+from signorini.solvers.routes import METHODS
+from signorini.solvers.select import solve
 from signorini.solvers.solution import Solution
 
 GENERAL = next(method for method in METHODS if method != "fourier")  # it takes any mesh

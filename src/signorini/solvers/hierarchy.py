@@ -16,6 +16,7 @@ from signorini.fem.elements import ELEMENTS
 from signorini.fem.stiffness import assemble_stiffness
 from signorini.mesh.bisection import over_ancestors
 from signorini.mesh.curved import curved_vertices
+from signorini.mesh.grid import Grid
 from signorini.solvers.algebraic import algebraic_levels
 from signorini.solvers.conditioning import JUMP, has_jumps, is_regular
 from signorini.solvers.level import COARSEST_SIZE, Level
@@ -106,7 +107,8 @@ def _coarsened(mesh, k):
 def _one_coarser(mesh, k):
     """As `_coarsened`, of the mesh that `mesh` was refined from."""
     coarse, parents = mesh.coarser(), mesh.vertex_parents()
-    _check_nested(mesh, coarse, parents)
+    if not isinstance(mesh, Grid):  # whose coarser grid is arithmetic
+        _check_nested(mesh, coarse, parents)
     P = _averaging(parents, coarse.number_of_vertices)
     if k is None:
         return P, coarse, None, True

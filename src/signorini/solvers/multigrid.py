@@ -89,7 +89,7 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
         for k in range(len(levels) - 1, 0, -1):
             solver = LevelSolver(levels[k:], obstacles[k], u, active)
             solver.solve(0.1 / u.size)
-            u, active = _prolong(
+            u, active = prolong(
                 levels[k - 1], obstacles[k], obstacles[k - 1], solver.u, solver.active
             )
     solver = LevelSolver(levels, obstacles[0], u, active if guess is None else guess)
@@ -161,9 +161,23 @@ def _restricted_values(level, marked, values):
     return result, (level.R @ weighted)[result] / weight[result]
 
 
-def _prolong(level, coarse, fine, u, active):
-    """A coarse solution as a start for the next level, its contact set where all that an unknown is
-    made of binds.
+def prolong(level, coarse, fine, u, active):
+    """A coarse solution as a start for the next level.
+
+    Parameters
+    ----------
+    level : Level
+        The finer one.
+    coarse, fine : Obstacle
+    u : ndarray, shape (m,)
+    active : ndarray of bool
+        The contact set of the coarser level.
+
+    Returns
+    -------
+    u : ndarray, shape (n,)
+    active : ndarray of bool
+        Where all that an unknown is made of binds.
     """
     marks = np.zeros(u.size)
     marks[coarse.contact[active]] = 1.0

@@ -37,6 +37,8 @@ class RouteResult(NamedTuple):
         See `Solution`.
     undecided : ndarray of bool, shape (nc,)
         See `Solution`.
+    algebraic_error, discretisation_error : float or None
+        See `Solution`; None where the solution is one to the last bit.
     """
 
     u: np.ndarray
@@ -46,6 +48,8 @@ class RouteResult(NamedTuple):
     multiplier: np.ndarray
     multiplier_accuracy: float
     undecided: np.ndarray
+    algebraic_error: float | None = None
+    discretisation_error: float | None = None
 
 
 class ErrorEstimates(NamedTuple):

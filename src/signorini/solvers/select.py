@@ -5,29 +5,17 @@ import warnings
 
 import numpy as np
 
-from signorini.exceptions import NotApplicableError, SolverError
+from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
 from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult, variation_of
+from signorini.solvers.routes import METHODS, REQUESTED, choose_route
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
-# Route name -> module and function; imported when used, because importing SciPy costs more than a
-# coarse solve.
-METHODS = {
-    "fourier": ("signorini.solvers.fourier", "solve_fourier"),
-    "direct": ("signorini.solvers.direct", "solve_direct"),
-    "multigrid": ("signorini.solvers.multigrid", "solve_multigrid"),
-}
+ACCURACIES = ("full", "discretisation")
 
-
-_DENSE_CONTACT_UP_TO = (
-    1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
-)
-# Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
-_DIRECT_UP_TO = 20_000
-_REQUESTED = "asked for"
 # On the estimated error of u where dofs are undecided. Errors of u above 1e-13 and above their
 # estimate were met there alone: four times it at most in the stability suite, three times it on
 # graded cells. With undecided dofs no force was further off than its estimate.
@@ -37,7 +25,7 @@ _NEARLY_CONSTANT = (
 )  # Dirichlet values and obstacle that vary by less of their size are shifted
 
 
-def solve(problem, method="auto", guess=None):
+def solve(problem, method="auto", guess=None, accuracy="full"):
     """Solve a discrete Signorini problem.
 
     Parameters
@@ -47,6 +35,9 @@ def solve(problem, method="auto", guess=None):
         "auto" takes the cheapest route that applies and says why in the solution.
     guess : ndarray of bool, shape (nc,), optional
         Contact dofs believed to bind, for instance from a coarser level.
+    accuracy : {"full", "discretisation"}
+        "discretisation" ends multigrid where the algebraic error is a tenth of the discretisation
+        error, both estimated, in the energy norm; other routes have no use for it.
 
     Returns
     -------
@@ -69,13 +60,63 @@ def solve(problem, method="auto", guess=None):
     >>> solution.status, round(float(solution.u[0]), 8)
     ('solved', 0.60808628)
     """
+    if accuracy not in ACCURACIES:
+        raise SolverError(
+            f"solver.accuracy: unknown accuracy {accuracy!r}; known: {', '.join(ACCURACIES)}"
+        )
     check_data(problem)
     guess = checked_guess(problem, guess)
-    method, reason = _choose(problem, method)
+    method, reason = choose_route(problem, method)
     check_solvable(problem)
+    solved = _solved_roughly if accuracy == "discretisation" and method == "multigrid" else _solved
     if problem.upper:
-        return _solved(mirrored(problem), method, reason, guess).mirrored(problem)
-    return _solved(problem, method, reason, guess)
+        return solved(mirrored(problem), method, reason, guess).mirrored(problem)
+    return solved(problem, method, reason, guess)
+
+
+def _solved_roughly(problem, method, reason, guess):
+    """The solution to discretisation accuracy; to the last bit where that cannot be told."""
+    from signorini.solvers.full_multigrid import solve_to_discretisation
+
+    exponent = _exponent(problem)
+    scaled = problem.scaled(-exponent)
+    check_symmetric(scaled.A)
+    result = solve_to_discretisation(scaled, guess)
+    if result is None:
+        reason = f"{reason}; its discretisation error cannot be told"
+        return _solved(problem, method, reason, guess)
+    residual, _ = kkt_residual(scaled, result.u)
+    with np.errstate(over="ignore"):
+        u, multiplier = (np.ldexp(values, exponent) for values in (result.u, result.multiplier))
+        algebraic = float(np.ldexp(result.algebraic_error, exponent))
+        discretisation = float(np.ldexp(result.discretisation_error, exponent))
+    _check_size(u, multiplier)
+    return Solution(
+        u=u,
+        multiplier=multiplier,
+        active=result.active,
+        residual=residual,
+        accuracy=result.accuracy,
+        multiplier_accuracy=result.multiplier_accuracy,
+        undecided=result.undecided,
+        status="discretisation",
+        iterations=result.iterations,
+        method=method,
+        reason=reason,
+        constant=0.0,
+        deviation=u,
+        problem=problem,
+        algebraic_error=algebraic,
+        discretisation_error=discretisation,
+    )
+
+
+def _check_size(u, multiplier):
+    """Refuse a solution that doubles cannot hold."""
+    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
+        raise SolverError(
+            "data: the solution exceeds the largest number, 1.8e308; scale the data down"
+        )
 
 
 def _solved(problem, method, reason, guess):
@@ -102,10 +143,7 @@ def _solved(problem, method, reason, guess):
     with np.errstate(over="ignore"):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
         u = _add_constant(problem, deviation, np.ldexp(constant, exponent), active)
-    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
-        raise SolverError(
-            "data: the solution exceeds the largest number, 1.8e308; scale the data down"
-        )
+    _check_size(u, multiplier)
     return Solution(
         u=u,
         multiplier=multiplier,
@@ -174,7 +212,7 @@ def _solve_or_fall_back(problem, method, reason, guess):
         larger = not fits(
             problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
         )
-        if method != "multigrid" or reason == _REQUESTED or larger:
+        if method != "multigrid" or reason == REQUESTED or larger:
             raise
         return _run_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
 
@@ -191,49 +229,6 @@ def _causes(problem):
     from signorini.solvers.conditioning import accuracy_loss_causes
 
     return accuracy_loss_causes(problem)
-
-
-def _choose(problem, method):
-    if method not in ("auto", *METHODS):
-        raise SolverError(
-            f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}"
-        )
-    if method != "auto":
-        if why_not := _why_not(method, problem):
-            raise NotApplicableError(
-                f"solver.method: {method} does not apply, {why_not}; use auto or direct"
-            )
-        return method, _REQUESTED
-    why_not = _why_not("fourier", problem)
-    if not why_not:
-        condition = (
-            "equal conditions beside the contact side"
-            if problem.contact.size
-            else "no contact part: plain Poisson"
-        )
-        return "fourier", f"uniform grid, {condition}"
-    if problem.b.size <= _DIRECT_UP_TO:
-        return "direct", why_not
-    from signorini.solvers.conditioning import is_nested, is_regular
-
-    if is_nested(problem.mesh):
-        return "multigrid", f"{why_not}, but refined"
-    if is_regular(problem.mesh) and problem.contact.size > _DENSE_CONTACT_UP_TO:
-        return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
-    if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
-        return "direct", f"{why_not}, and not refined or of stretched cells"
-    if stretched := _why_not("multigrid", problem):
-        raise SolverError(
-            f"domain: too large for a factorisation, and {stretched}; "
-            "stretch cells less, or use fewer"
-        )
-    return "multigrid", f"{why_not}, and too large for a factorisation"
-
-
-def _why_not(method, problem):
-    """Why a route does not apply to a problem, or None; the direct one always does."""
-    module = importlib.import_module(METHODS[method][0])
-    return module.why_not(problem) if hasattr(module, "why_not") else None
 
 
 def _status(residual, accuracy, result):

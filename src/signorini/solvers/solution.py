@@ -40,9 +40,11 @@ class Solution:
         Contact dofs whose gap, or whose contact force where they bind, is below its own error: in
         exact arithmetic they may be on the other side. Everywhere else `active` is the contact set
         in exact arithmetic.
-    status : {"solved", "inaccurate"}
+    status : {"solved", "inaccurate", "discretisation"}
         Never better than the residual and the two accuracies; than ten times that of u where
-        contact dofs are undecided.
+        contact dofs are undecided. "discretisation" where no more was asked for: then the contact
+        set is not proved, `accuracy` is the last correction, and no accuracy of the forces is known
+        (infinite).
     iterations : int
         Active-set steps.
     method : str
@@ -56,6 +58,9 @@ class Solution:
         u - constant, with the digits that u has no room for beside a large constant.
     problem : Problem
         What was solved.
+    algebraic_error, discretisation_error : float or None
+        Of a solution to discretisation accuracy: estimates, with a margin, of the energy norms of
+        what is missing to u_h, and of u - u_h.
     """
 
     u: np.ndarray
@@ -72,6 +77,8 @@ class Solution:
     constant: float
     deviation: np.ndarray = field(repr=False)
     problem: Problem = field(repr=False)
+    algebraic_error: float | None = None
+    discretisation_error: float | None = None
 
     @property
     def force(self):

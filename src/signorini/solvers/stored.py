@@ -33,6 +33,8 @@ class StoredSolution:
     method: str
     threshold: np.ndarray | None = None
     upper: bool = False
+    algebraic_error: float | None = None
+    discretisation_error: float | None = None
 
     @property
     def force(self):
@@ -84,6 +86,8 @@ def stored(problem, solution, n, h):
         method=solution.method,
         threshold=problem.threshold,
         upper=problem.upper,
+        algebraic_error=solution.algebraic_error,
+        discretisation_error=solution.discretisation_error,
     )
 
 
@@ -114,7 +118,12 @@ def write_solution(path, problem, solution, n, h):
 
 # Parts that most solutions do not have, and what says so: they are not written then.
 _KEPT = object()
-_ABSENT = {"threshold": None, "upper": False}
+_ABSENT = {
+    "threshold": None,
+    "upper": False,
+    "algebraic_error": None,
+    "discretisation_error": None,
+}
 
 
 def read_solution(path):

@@ -1,0 +1,83 @@
+"""Which route solves a problem, and why."""
+
+import importlib
+
+from signorini.exceptions import NotApplicableError, SolverError
+from signorini.memory import fits
+
+# Route name -> module and function; imported when used, because importing SciPy costs more than a
+# coarse solve.
+METHODS = {
+    "fourier": ("signorini.solvers.fourier", "solve_fourier"),
+    "direct": ("signorini.solvers.direct", "solve_direct"),
+    "multigrid": ("signorini.solvers.multigrid", "solve_multigrid"),
+}
+
+_DENSE_CONTACT_UP_TO = (
+    1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
+)
+# Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
+_DIRECT_UP_TO = 20_000
+REQUESTED = "asked for"
+
+
+def choose_route(problem, method):
+    """The route for a problem, and why that one.
+
+    Parameters
+    ----------
+    problem : Problem
+    method : str
+        Of `METHODS`, or "auto" for the cheapest that applies.
+
+    Returns
+    -------
+    method, reason : str
+
+    Raises
+    ------
+    SolverError
+        If the method is unknown, or none can hold the problem.
+    NotApplicableError
+        If the method does not apply.
+    """
+    if method not in ("auto", *METHODS):
+        raise SolverError(
+            f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}"
+        )
+    if method != "auto":
+        if why_not := _why_not(method, problem):
+            raise NotApplicableError(
+                f"solver.method: {method} does not apply, {why_not}; use auto or direct"
+            )
+        return method, REQUESTED
+    why_not = _why_not("fourier", problem)
+    if not why_not:
+        condition = (
+            "equal conditions beside the contact side"
+            if problem.contact.size
+            else "no contact part: plain Poisson"
+        )
+        return "fourier", f"uniform grid, {condition}"
+    if problem.b.size <= _DIRECT_UP_TO:
+        return "direct", why_not
+    from signorini.solvers.conditioning import is_nested, is_regular
+
+    if is_nested(problem.mesh):
+        return "multigrid", f"{why_not}, but refined"
+    if is_regular(problem.mesh) and problem.contact.size > _DENSE_CONTACT_UP_TO:
+        return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
+    if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
+        return "direct", f"{why_not}, and not refined or of stretched cells"
+    if stretched := _why_not("multigrid", problem):
+        raise SolverError(
+            f"domain: too large for a factorisation, and {stretched}; "
+            "stretch cells less, or use fewer"
+        )
+    return "multigrid", f"{why_not}, and too large for a factorisation"
+
+
+def _why_not(method, problem):
+    """Why a route does not apply to a problem, or None; the direct one always does."""
+    module = importlib.import_module(METHODS[method][0])
+    return module.why_not(problem) if hasattr(module, "why_not") else None

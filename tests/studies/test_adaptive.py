@@ -53,11 +53,15 @@ def test_savings():
     assert compare(run(-0.5, effectivity=1.1), uniform)["effectivity"] == 1.1
 
 
+def frames(adaptive, uniform):
+    return {("P1", "adaptive"): adaptive, ("P1", "uniform"): uniform}
+
+
 @pytest.mark.parametrize("layout", ["markdown", "latex"])
 def test_the_page_says_where_it_pays(layout):
     runs = {
-        "sharp": (run(-0.5, count=12), run(-1 / 3, factor=4, count=6)),
-        "plain": (run(-0.5, effectivity=1.05), run(-0.5, factor=4, count=5)),
+        "sharp": frames(run(-0.5, count=12), run(-1 / 3, factor=4, count=6)),
+        "plain": frames(run(-0.5, effectivity=1.05), run(-0.5, factor=4, count=5)),
     }
     text = page(layout, runs)
     assert "pay for sharp" in text

@@ -10,46 +10,66 @@ from matplotlib.ticker import NullFormatter
 from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
 
 SMALL = STYLE | {"font.size": 8, "axes.labelsize": 8, "lines.markersize": 3}
-_ADAPTIVE = {"color": ACCENT, "marker": "s", "linestyle": "-"}
-_UNIFORM = {"color": BLACK, "marker": "o", "markerfacecolor": "white", "linestyle": "--"}
+# (element, run) -> how its guaranteed error is drawn; the true error, where known, is a thin line.
+_STYLES = {
+    ("P1", "adaptive"): {"color": ACCENT, "marker": "s", "linestyle": "-"},
+    ("P1", "uniform"): {
+        "color": ACCENT,
+        "marker": "s",
+        "markerfacecolor": "white",
+        "linestyle": "--",
+    },
+    ("CR", "adaptive"): {"color": BLACK, "marker": "o", "linestyle": "-"},
+    ("CR", "uniform"): {
+        "color": BLACK,
+        "marker": "o",
+        "markerfacecolor": "white",
+        "linestyle": "--",
+    },
+}
+_TRUE = {"color": GREY, "linewidth": 0.7, "linestyle": ":", "marker": "none"}
 _COLUMNS = 3
 
 
 @matplotlib.rc_context(SMALL)
-def draw_bounds(runs, column, label):
-    """Draw the guaranteed error of P1 against a cost, a panel for each scene.
+def draw_bounds(curves, label, optimal=False):
+    """Draw guaranteed errors against a cost, a panel for each scene.
 
     Parameters
     ----------
-    runs : dict
-        Scene -> (adaptive, uniform), each a pair of lists: costs and bounds.
-    column : {"dofs", "seconds"}
-        What the cost is; the optimal slope is drawn for unknowns.
+    curves : dict
+        Scene -> (element, run) -> costs, guaranteed errors, true errors; lists, the last of None
+        where the solution is not known.
     label : str
         Of the cost.
+    optimal : bool
+        Whether to draw the optimal slope of affine elements, for costs that are unknowns.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    figure, panels = _panels(len(runs), 0.31)
-    for axes, (scene, pair) in zip(panels, runs.items(), strict=False):
-        for (cost, bounds), style in zip(pair, (_ADAPTIVE, _UNIFORM), strict=True):
-            axes.loglog(cost, bounds, **style)
-        if column == "dofs":
-            _draw_optimal(axes, *pair[0])
+    figure, panels = _panels(len(curves), 0.31, legend=0.2)
+    for axes, (scene, of_scene) in zip(panels, curves.items(), strict=False):
+        for key, (cost, bounds, errors) in of_scene.items():
+            axes.loglog(cost, bounds, label=" ".join(key), **_STYLES[key])
+            if None not in errors:
+                axes.loglog(cost, errors, **_TRUE)
+        if optimal:
+            _draw_optimal(axes, *of_scene["P1", "adaptive"][:2])
         axes.set_title(scene, fontsize=8)
         axes.set_xlabel(label, labelpad=1)
-        _show_decades(axes, pair)
+        _show_decades(axes, of_scene.values())
     for axes in panels[::_COLUMNS]:
         axes.set_ylabel("guaranteed error")
-    panels[0].legend(["adaptive", "uniform"], fontsize=7, loc="lower left")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="upper center", ncols=4, handlelength=2.6)
     return figure
 
 
-def _show_decades(axes, pair):
+def _show_decades(axes, curves):
     """Let both axes run over whole decades, labelled at those alone."""
-    values = [[value for curve in pair for value in curve[k]] for k in (0, 1)]
+    values = [[value for curve in curves for value in curve[k]] for k in (0, 1)]
     limits = axes.set_xlim, axes.set_ylim
     for axis, shown, set_limits in zip((axes.xaxis, axes.yaxis), values, limits, strict=True):
         exponents = [math.log10(value) for value in shown]
@@ -96,13 +116,13 @@ def _draw_facets(axes, ends, colour, width):
     axes.add_collection(LineCollection(segments, colors=colour, linewidths=width))
 
 
-def _panels(count, share):
-    """A figure with a panel for each scene, three in a row; those left over are hidden."""
+def _panels(count, share, legend=0.0):
+    """A figure with a panel for each scene, three in a row, and room for a legend above them."""
     rows = -(-count // _COLUMNS)
-    height = share * rows * TEXT_WIDTH
+    height = share * rows * TEXT_WIDTH + legend
     figure = new_figure(TEXT_WIDTH, height)
     grid = figure.subplots(rows, _COLUMNS, squeeze=False)
-    margins = {"bottom": 0.36 / height, "top": 1 - 0.22 / height}
+    margins = {"bottom": 0.36 / height, "top": 1 - (0.22 + legend) / height}
     figure.subplots_adjust(left=0.09, right=0.99, wspace=0.3, hspace=0.42, **margins)
     panels = grid.ravel().tolist()
     for axes in panels[count:]:

@@ -23,8 +23,8 @@ def run(arguments):
         folder.name: read_picture(folder / "adaptive/picture.npz") for folder in arguments.scenes
     }
     figures = {
-        "dofs": draw_bounds(_curves(runs, "dofs", "dofs"), "dofs", "unknowns"),
-        "seconds": draw_bounds(_curves(runs, "total", "own"), "seconds", "seconds"),
+        "dofs": draw_bounds(_curves(runs, "dofs", "dofs"), "unknowns", optimal=True),
+        "seconds": draw_bounds(_curves(runs, "total", "own"), "seconds"),
         "meshes": draw_meshes(pictures),
     }
     for name, figure in figures.items():
@@ -34,11 +34,20 @@ def run(arguments):
 
 
 def _curves(runs, adaptive, uniform):
-    """Costs and bounds of both runs of each scene, by the column of the cost in each."""
+    """The curves of each scene, by the column of the cost in each run."""
+    columns = {"adaptive": adaptive, "uniform": uniform}
     return {
-        scene: tuple(
-            (frame[column].tolist(), frame["upper"].tolist())
-            for frame, column in zip(pair, (adaptive, uniform), strict=True)
-        )
-        for scene, pair in runs.items()
+        scene: {
+            key: tuple(_listed(frame, column) for column in (columns[key[1]], "upper", "error"))
+            for key, frame in frames.items()
+        }
+        for scene, frames in runs.items()
     }
+
+
+def _listed(frame, column):
+    """A column as a list, None where a value is missing."""
+    values = frame[column]
+    return [
+        None if missing else value for value, missing in zip(values, values.isna(), strict=True)
+    ]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from signorini.storage import read_csv
 
-_NUMBERS = ("step", "triangles", "dofs", "upper", "lower", "effectivity")
+_NUMBERS = ("step", "triangles", "dofs", "upper", "lower", "error", "effectivity")
 _SECONDS = ("step", "refine", "solve", "certify")
 
 
@@ -30,17 +30,17 @@ def read_runs(folders):
     Returns
     -------
     dict
-        Name of the folder -> (adaptive, uniform), each of `studies.adaptive.summary.run_of`.
+        Name of the folder -> (element, "adaptive" or "uniform") -> what
+        `studies.adaptive.summary.run_of` returns.
     """
     from signorini.studies.adaptive.summary import run_of
 
-    return {
-        folder.name: tuple(
-            run_of(
-                read_csv(folder / run / "steps.csv", _NUMBERS),
-                read_csv(folder / run / "seconds.csv", _SECONDS),
-            )
-            for run in ("adaptive", "uniform")
-        )
-        for folder in folders
-    }
+    runs = {}
+    for folder in folders:
+        of_scene = runs.setdefault(folder.name, {})
+        for run in ("adaptive", "uniform"):
+            steps = read_csv(folder / run / "steps.csv", _NUMBERS)
+            seconds = read_csv(folder / run / "seconds.csv", _SECONDS)
+            for element in ("P1", "CR"):
+                of_scene[element, run] = run_of(steps, seconds, element)
+    return runs

@@ -14,7 +14,7 @@ def page(layout, runs, quick=False):
     ----------
     layout : {"markdown", "latex"}
     runs : dict
-        Scene -> (adaptive, uniform), each of `summary.run_of`.
+        Scene -> (element, "adaptive" or "uniform") -> a frame of `summary.run_of`.
     quick : bool, optional
         Whether the runs were small.
 
@@ -22,7 +22,7 @@ def page(layout, runs, quick=False):
     -------
     str
     """
-    rows = {scene: compare(*pair) for scene, pair in runs.items()}
+    rows = {scene: _of_p1(frames) for scene, frames in runs.items()}
     pays = [scene for scene, row in rows.items() if row["fewer"] >= _PAYS]
     known = {scene: row["effectivity"] for scene, row in rows.items() if row["effectivity"]}
     return render(
@@ -50,4 +50,9 @@ def summary_rows(runs):
     -------
     list of dict
     """
-    return [{"scene": scene} | compare(*pair) for scene, pair in runs.items()]
+    return [{"scene": scene} | _of_p1(frames) for scene, frames in runs.items()]
+
+
+def _of_p1(frames):
+    """The comparison of the element that both runs refine for."""
+    return compare(frames["P1", "adaptive"], frames["P1", "uniform"])

@@ -19,8 +19,8 @@ def run_of(steps, seconds, element=_ELEMENT):
     Returns
     -------
     pandas.DataFrame
-        Indexed by step: ``dofs``, ``upper``, ``lower``, ``effectivity``, ``own``, the seconds of
-        the step alone, and ``total``, those of all steps so far.
+        Indexed by step: ``dofs``, ``upper``, ``lower``, ``error``, ``effectivity``, ``own``, the
+        seconds of the step alone, and ``total``, those of all steps so far.
     """
     rows = pd.DataFrame([row for row in steps if row["element"] == element]).set_index("step")
     took = pd.DataFrame(seconds).set_index("step")[_STAGES]

@@ -216,7 +216,7 @@ def test_bundles_hold_every_point_once_and_are_few(count, most):
     made = bundles(section, most)
     names = [point.name for found in made for point in found]
     assert len(set(names)) == len(names) == count
-    assert len(made) <= (most or 8)
+    assert len(made) <= (most or 4)
     assert min(map(len, made)) >= (25 if most is None and count >= 25 else 1)
     assert all(bundle(section, k + 1, len(made)) == found for k, found in enumerate(made))
     assert max(map(len, made)) - min(map(len, made)) <= 1

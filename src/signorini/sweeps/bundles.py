@@ -8,7 +8,7 @@ from itertools import pairwise
 from signorini.exceptions import SceneError
 from signorini.scene.sweep import sweep_points
 
-MOST_BUNDLES = 8  # unless more are asked for
+MOST_BUNDLES = 4  # unless more are asked for
 FEWEST_POINTS = 25  # likewise, in a bundle; starting a job costs half a second
 # Sections that the discrete problems depend on: points that agree in them share their solutions.
 STATED = ("domain", "boundary", "data", "load_quadrature", "levels", "truth", "constraint")

@@ -120,7 +120,7 @@ def problem(
     _check_choices(
         constraint=constraint, load_quadrature=load_quadrature, load_precision=load_precision
     )
-    load = {"load_quadrature": load_quadrature, "load_precision": load_precision}
+    load: dict[str, Any] = {"load_quadrature": load_quadrature, "load_precision": load_precision}
     given = _read_data(
         f=f, g=g, obstacle=obstacle, coefficient=coefficient, contact_flux=contact_flux
     )
@@ -227,7 +227,7 @@ def _refuse_labels(**given: Names | None) -> None:
 
 
 def _on_labelled(
-    mesh: Grid | Triangulation, element: str, data: Data, load: Mapping[str, str | int]
+    mesh: Grid | Triangulation, element: str, data: Data, load: Mapping[str, Any]
 ) -> Problem:
     """The problem on a mesh of the library, whose labels hold."""
     statement = ProblemStatement({}, {}, data, **load)

@@ -5,13 +5,14 @@ CORES ?= 2
 
 run := .venv/bin/python -m
 
-.PHONY: help paper test lint readme examples studies requirements clean distclean
+.PHONY: help paper test lint docs readme examples studies requirements clean distclean
 .NOTPARALLEL:
 
 help:
 	@echo 'make paper         build every table and figure of the paper, check them, and typeset results/paper/paper.pdf'
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format, style and types of Python, and Snakemake files'
+	@echo 'make docs          build the documentation site, build/site/index.html'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make examples      run the examples, draw their pictures and write docs/examples.md'
 	@echo 'make studies       run the five studies, up to an hour, and keep what they measured in docs/studies'
@@ -32,6 +33,10 @@ lint: .venv/ready
 	$(run) mypy
 	$(run) snakefmt --check Snakefile workflow
 	.venv/bin/python .ci/lint_workflow.py
+
+docs: .venv/docs
+	$(run) sphinx -W --keep-going --quiet --builder html --conf-dir docs . build/site
+	@echo 'build/site/index.html'
 
 readme: paper
 	$(run) snakemake --cores $(CORES) all_scenes
@@ -55,6 +60,10 @@ requirements:
 	@"$(PYTHON)" -m venv --clear .venv
 	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 --requirement requirements.txt
 	@touch .venv/ready
+
+.venv/docs: .venv/ready requirements-docs.txt
+	@$(run) pip install --quiet --disable-pip-version-check --requirement requirements-docs.txt
+	@touch .venv/docs
 
 clean:
 	rm -rf results

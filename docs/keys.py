@@ -31,15 +31,29 @@ def key_list(schema, examples=()):
     -------
     str
     """
-    return "".join(f"- {line}\n" for line in _lines(schema, schema, (), examples))
+    items = _items(schema, schema, (), examples)
+    return "".join(f"- `{name}`: {meaning}\\\n  {facts}.\n" for name, meaning, facts in items)
 
 
-def _lines(schema, root, path, examples):
+def key_sections(schema, examples=()):
+    """The same as `key_list`, with a heading for each key: of level 2 for one without a section,
+    else of level 3.
+    """
+    items = _items(schema, schema, (), examples)
+    return "\n".join(
+        f"{'###' if '.' in name else '##'} {name}\n\n{meaning}\n\n{facts}.\n"
+        for name, meaning, facts in items
+    )
+
+
+def _items(schema, root, path, examples):
+    """Name, meaning and facts of each key."""
     for key, part in _properties(schema, root).items():
         inner = (*path, key)
-        yield _line(inner, part, root, key in schema.get("required", ()), examples)
-        part = _resolved(part, root)
-        yield from _lines(part, root, inner, examples)
+        meaning = _resolved(part, root).get("description", "").strip()
+        facts = _facts(inner, part, root, key in schema.get("required", ()), examples)
+        yield ".".join(inner), meaning, "; ".join(facts)
+        yield from _items(_resolved(part, root), root, inner, examples)
 
 
 def _properties(schema, root):
@@ -60,7 +74,8 @@ def _resolved(part, root):
     return root["$defs"][part["$ref"].removeprefix("#/$defs/")] | part
 
 
-def _line(path, part, root, required, examples):
+def _facts(path, part, root, required, examples):
+    """What a value may be, whether it is required, its default, and an example."""
     values, part = _values(part, root), _resolved(part, root)
     facts = [f"{values[0].upper()}{values[1:]}"]
     if "x-kind" in part:
@@ -76,7 +91,7 @@ def _line(path, part, root, required, examples):
     ]
     if not _properties(part, root) and (found or "default" in part):
         facts.append(f"example `{path[-1]}: {_shown(found[0] if found else part['default'])}`")
-    return f"`{'.'.join(path)}`: {part.get('description', '').strip()}\\\n  {'; '.join(facts)}."
+    return facts
 
 
 def _values(part, root):

@@ -16,13 +16,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
 
-import scene_pages  # noqa: E402 (the path above must come first)
+import first_page  # noqa: E402 (the path above must come first)
+import scene_pages  # noqa: E402
 from keys import key_list  # noqa: E402
 
 from signorini.exact import FAMILIES  # noqa: E402
 from signorini.scene.strict_yaml import load_yaml  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
+PAPER = ROOT / "docs/paper.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
 FIGURES = (*(RESULTS / f"figure_5_{k}.png" for k in (1, 2, 3)), ROOT / "results/gallery.png")
 DURATIONS = ROOT / "results/durations.csv"
@@ -37,11 +39,20 @@ CHOICES = {
 }
 
 
+def promises():
+    """The block of README.md that tells what is special."""
+    return {"promises": first_page.promises(verdict())}
+
+
+def verdict():
+    """What the check of the scene `paper` found."""
+    return (RESULTS / "check.txt").read_text(encoding="utf-8")
+
+
 def results():
-    """Blocks of README.md, from the results of the scene `paper`."""
+    """Blocks of docs/paper.md, from the results of the scene `paper`."""
     table = (RESULTS / "table_5_1.md").read_text(encoding="utf-8")
-    line = (RESULTS / "check.txt").read_text(encoding="utf-8")
-    return {"table 5.1": table, "check": f"> {line}", "choices": choices()}
+    return {"table 5.1": table, "check": f"> {verdict()}", "choices": choices()}
 
 
 def durations(measured):
@@ -162,7 +173,8 @@ def main():
     try:
         measured = {"durations": durations_block(block(README, "durations"), check)}
         wanted = {
-            README: filled(README, results() | measured),
+            README: filled(README, promises() | measured),
+            PAPER: filled(PAPER, results()),
             CONFIG_README: filled(CONFIG_README, keys()),
         }
         wanted |= {page: filled(page, texts) for page, texts in scene_pages.blocks().items()}

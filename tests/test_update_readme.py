@@ -95,3 +95,24 @@ def test_every_scene_of_a_page_ships(update):
     for name in (*pages.PRACTICE, *pages.PUBLISHED):
         assert (scenes / f"{name}.yaml").is_file()
     assert set(pages.COUNTED) <= set(pages.PUBLISHED)
+
+
+def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_path):
+    page = update.first_page
+    for name in ("stability", "benchmark"):
+        (tmp_path / name).mkdir()
+    statuses = "solutions,solved,wrong\n10,7,0\n5,4,1\n"
+    times = "scene,element,method,n,dofs,total\npaper,CR,fourier,512,9,1\n"
+    times += "paper,P1,fourier,256,9,1\npaper,P1,fourier,512,262656,0.0316\n"
+    (tmp_path / "stability/statuses.csv").write_text(statuses, encoding="utf-8")
+    (tmp_path / "benchmark/benchmark.csv").write_text(times, encoding="utf-8")
+    monkeypatch.setattr(page, "STUDIES", tmp_path)
+    assert page.proofs() == {"solutions": 15, "solved": 11, "wrong": 1}
+    assert page.speed() == {"unknowns": "262656", "milliseconds": pytest.approx(31.6)}
+    text = page.promises("all 28 numbers met; largest distance 1\n")
+    assert "all 28 numbers met (" in text
+    assert "262656 unknowns, takes 32 ms" in text
+
+
+def test_the_first_page_says_none_where_no_solve_is_wrong(update):
+    assert update.first_page.proofs()["wrong"] == "none"

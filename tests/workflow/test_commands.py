@@ -1,6 +1,4 @@
-"""Every command of README.md, config/README.md and docs: each is run, or a quick variant of it, as
-`TRIED` says.
-"""
+"""Every command of the pages for readers is run, or a quick variant of it, as `TRIED` says."""
 
 import os
 import re
@@ -14,11 +12,14 @@ from pathlib import Path
 import pytest
 from project import ROOT, side_by_side
 
-PAGES = [ROOT / "README.md", ROOT / "config/README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "config/README.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
+]
 SHELL = ("", "sh", "bash", "console")
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+BLOCK = re.compile(r"^```(\w*|\{[\w-]+\})\n(.*?)^```$", re.M | re.S)
 INLINE = re.compile(r"`((?:snakemake|make|python|pip install|cd) [^`]+)`")
-NAMES = re.compile(r"^(?:#.*|\s*|(?P<name>[\w.-]+)(?:\[[\w,]+\])?(?:[=<>~!].*)?)$")
+NAMES = re.compile(r"^(?:#.*|\s*|\[[\w,]+\]|(?P<name>[\w.-]+)(?:\[[\w,]+\])?(?:[=<>~!].*)?)$")
 
 
 def debian(packages):
@@ -34,13 +35,14 @@ def python_packages(wanted):
     """
     if wanted.startswith("-r "):
         return f"test -f {wanted.removeprefix('-r ')}"
-    assert all(NAMES.match(name) for name in wanted.split()), wanted
+    names = wanted.strip("'").removeprefix(".")  # '.[extras]' is this folder
+    assert all(NAMES.match(name) for name in names.split()), wanted
     return "true"
 
 
 # How a command is tried: as it stands, if nothing is said.
 TRIED = {
-    r"make( [\w-]+)*": lambda command: command.replace("make", "make --dry-run", 1),
+    r"make( [\w./-]+)*": lambda command: command.replace("make", "make --dry-run", 1),
     r"apt-get install (.*)": lambda command: debian(command.removeprefix("apt-get install ")),
     r"pip install (.*)": lambda command: python_packages(command.removeprefix("pip install ")),
     r"python3? -m venv (.*)": lambda command: f"{command} --without-pip --system-site-packages",
@@ -61,6 +63,7 @@ TRIED = {
     r"snakemake --unlock": str,
     r"snakemake --cores 2": str,  # which has nothing to do in this copy
     r"snakemake (.*)": lambda command: f"{command} --dry-run",
+    r"python examples/(.*)": lambda command: f"test -f {command.split()[1]}",  # run elsewhere
     r"python (benchmarks|docs)/(.*)": lambda command: f"{command.partition('.py')[0]}.py --help",
 }
 SLURM = find_spec("snakemake_executor_plugin_slurm")  # and test_slurm runs it
@@ -105,9 +108,11 @@ FILES = [
     "Makefile",
     "requirements.txt",
     "requirements-benchmark.txt",
+    "requirements-docs.txt",
     "pyproject.toml",
     "benchmarks",
     "docs",
+    "examples",
     "README.md",
 ]
 
@@ -151,7 +156,8 @@ def test_languages():
     languages = {
         match[1] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))
     }
-    assert languages <= {*SHELL, "python", "yaml", "text"}
+    directives = {"{toctree}", "{eval-rst}"}  # of the site, which tests/docs/test_site.py builds
+    assert languages <= {*SHELL, *directives, "python", "yaml", "text"}
 
 
 def test_examples():
@@ -166,7 +172,9 @@ def test_examples():
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize("name", ["requirements.txt", "requirements-benchmark.txt"])
+@pytest.mark.parametrize(
+    "name", ["requirements.txt", "requirements-benchmark.txt", "requirements-docs.txt"]
+)
 def test_what_is_required_has_names(name):
     lines = (ROOT / name).read_text(encoding="utf-8").splitlines()
     found = [NAMES.match(line) for line in lines if line != "--editable ."]

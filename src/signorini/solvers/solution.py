@@ -128,14 +128,14 @@ def kkt_residual(problem, u):
 
     - the length scale G, how much u, the Dirichlet values and the greatest obstacle vary,
     - the scale F = |b| + diag(A) G of the other free dofs, each its own, since rows of A differ by
-    many powers of ten,
-    - the force scale F_c, the largest sum of the sizes of a contact dof's load and fluxes a_ij (u_j
-    - u_i),
+      many powers of ten,
+    - the force scale F_c, the largest sum of the sizes of a contact dof's load and fluxes
+      a_ij (u_j - u_i),
 
-    it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G, min((u
-    - lower)+ / G, lambda+ / F_c), and the deviation of the Dirichlet values over G. A force on a
-    contact dof counts only beyond what rounding u to doubles adds to it, 2 eps (|A| |u|). Where the
-    constraint is from above, that of -u for the mirrored problem.
+    it is the largest of |r| / F on the other free dofs, (-lambda)+ / F_c, (lower - u)+ / G,
+    min((u - lower)+ / G, lambda+ / F_c), and the deviation of the Dirichlet values over G. A force
+    on a contact dof counts only beyond what rounding u to doubles adds to it, 2 eps (|A| |u|).
+    Where the constraint is from above, that of -u for the mirrored problem.
 
     Parameters
     ----------

@@ -1,0 +1,53 @@
+"""The block of README.md that tells what is special: its numbers are those of the paper's check and
+of the kept studies.
+"""
+
+import csv
+from pathlib import Path
+
+STUDIES = Path(__file__).resolve().parent / "studies"
+REFERENCE = {"scene": "paper", "element": "P1", "method": "fourier", "n": "512"}
+PROMISES = """\
+- **A paper's numbers, checked digit by digit.** Its table and figures are rebuilt from the problem
+  alone: {met} ([the paper](docs/paper.md)).
+- **Solutions that say how far to trust them.** Each states its residual, the errors of u and of the
+  contact forces that rounding leaves, and the contact unknowns that it leaves open. Of {solutions}
+  solves of generated problems {solved} are called `solved`; held against extended precision,
+  {wrong} of them is wrong ([stability](docs/studies/stability/stability.md)).
+- **Guaranteed errors.** From the P1 and the CR solution of one mesh follow proved bounds of both
+  errors, without an exact or a finer solution ([certificates](docs/certificate.md)).
+- **Milliseconds.** The paper's reference, with {unknowns} unknowns, takes {milliseconds:.0f} ms on
+  one thread, from the statement of its problem to the proof ([speed](docs/speed.md)).
+"""
+
+
+def promises(verdict):
+    """What is special, as Markdown.
+
+    Parameters
+    ----------
+    verdict : str
+        The line of results/paper/check.txt.
+    """
+    met = verdict.partition(";")[0]
+    return PROMISES.format(met=met, **proofs(), **speed())
+
+
+def proofs():
+    """Solves of the stability study, those called solved, and those of them that are wrong."""
+    rows = _rows("stability/statuses.csv")
+    keys = ("solutions", "solved", "wrong")
+    counts = {key: sum(int(row[key]) for row in rows) for key in keys}
+    return counts | {"wrong": counts["wrong"] or "none"}
+
+
+def speed():
+    """What the paper's reference takes, by the benchmark study."""
+    rows = _rows("benchmark/benchmark.csv")
+    row = next(row for row in rows if row.items() >= REFERENCE.items())
+    return {"unknowns": row["dofs"], "milliseconds": 1000 * float(row["total"])}
+
+
+def _rows(name):
+    with open(STUDIES / name, encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))

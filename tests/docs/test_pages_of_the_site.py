@@ -1,0 +1,87 @@
+"""What the pages say of the project is true: no page is forgotten, and what is named exists."""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+import signorini
+from signorini.commands.catalogue import CATALOGUE
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```\{toctree\}\n(.*?)```", INDEX, re.S)
+LINES = [line for block in BLOCKS for line in block.splitlines()]
+LISTED = {line for line in LINES if line and not line.startswith(":")}
+PAPER = (DOCS / "paper.md").read_text(encoding="utf-8")
+ROWS = [line for line in PAPER.splitlines() if line.startswith("|") and "`signorini " in line]
+MAP = [row.strip("| ").split(" | ") for row in ROWS]
+RULES = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "workflow/rules").glob("*"))
+
+
+@pytest.fixture
+def made_blocks(monkeypatch):
+    """The extension of the site that makes blocks."""
+    monkeypatch.setattr(sys, "path", [str(DOCS), str(DOCS / "site"), *sys.path])
+    return importlib.import_module("made_blocks")
+
+
+def test_the_index_lists_every_page():
+    pages = {path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md")}
+    assert pages - LISTED == {"index"}
+    assert all((DOCS / f"{name}.md").is_file() for name in LISTED)
+
+
+def test_the_reference_shows_every_public_name_and_no_other():
+    page = (DOCS / "api.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^\.\. auto(?:function|class):: (\w+)$", page, re.M)
+    assert sorted(shown) == signorini.__all__
+
+
+def test_the_map_of_the_paper_has_its_table_and_figures():
+    first = " ".join(row[0] for row in MAP)
+    assert all(name in first for name in ("Table 5.1", "Figure 5.1", "Figures 5.2, 5.3"))
+
+
+@pytest.mark.parametrize("row", MAP, ids=lambda row: row[0])
+def test_a_row_of_the_map_names_a_rule_a_command_and_functions(row):
+    _, _, rule, command, functions = row
+    rule = rule.strip("`").removesuffix("_paper")  # one for each scene that names its figures
+    assert re.search(rf"rule {rule}:|as {rule} with|{rule}_\{{", RULES)
+    assert any(command.split()[1].strip("`") in group for group in CATALOGUE.values())
+    for name in re.findall(r"`([\w.]+)`", functions):
+        module, _, function = name.rpartition(".")
+        assert callable(getattr(importlib.import_module(f"signorini.{module}"), function))
+
+
+def test_each_key_of_a_scene_has_a_heading(made_blocks):
+    text = made_blocks.scene_keys()
+    headings = re.findall(r"^#{2,3} (.+)$", text, re.M)
+    schema = yaml.safe_load((ROOT / "src/signorini/scene/schema.yaml").read_text(encoding="utf-8"))
+    assert set(schema["properties"]) <= set(headings)
+    assert {"domain.kind", "truth.parameters", "quantities.NAME.kind"} <= set(headings)
+    assert len(headings) == len(set(headings))
+
+
+def test_the_citation_is_that_of_the_file(made_blocks):
+    facts = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert facts["title"] in made_blocks.citation()
+    assert str(facts["version"]) in made_blocks.citation()
+
+
+def test_an_unknown_block_is_refused_with_those_that_are_known(made_blocks):
+    with pytest.raises(ValueError, match="no block 'keys'; known: keys of a scene, citation"):
+        made_blocks.filled("<!-- made: keys -->\n")
+
+
+def test_what_the_site_needs_agrees_with_the_other_requirements():
+    def pins(name):
+        lines = (ROOT / name).read_text(encoding="utf-8").splitlines()
+        return {line.split("==")[0].lower(): line for line in lines if "==" in line}
+
+    ours, theirs = pins("requirements-docs.txt"), pins("requirements.txt")
+    assert {name: ours[name] for name in ours.keys() & theirs.keys()} == {}

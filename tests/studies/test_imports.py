@@ -15,12 +15,13 @@ STUDIES = (
     "The adaptive study",
 )
 SUMMED_UP = ("sweep", "sweep-table")  # by pandas; the points of a sweep are solved without
+PAGES = ("viewer",)  # made of templates; see `test_the_viewer_needs_no_data_frames`
 OTHERS = [
     name
     for title, found in CATALOGUE.items()
     if title not in STUDIES
     for name in found
-    if name not in SUMMED_UP
+    if name not in (*SUMMED_UP, *PAGES)
 ]
 
 
@@ -30,6 +31,11 @@ def test_no_other_command_can_import_pandas_or_jinja2(command):
     assert [
         text for text in code if re.search(r"^ *(import|from) (pandas|jinja2)\b", text, re.M)
     ] == []
+
+
+def test_the_viewer_needs_no_data_frames():
+    code = [path.read_text(encoding="utf-8") for path in sources("viewer")]
+    assert [text for text in code if re.search(r"^ *(import|from) pandas\b", text, re.M)] == []
 
 
 MEASURING = {

@@ -111,6 +111,26 @@ rule gallery:
         " -o {output:q} 2>&1 | tee {log:q}"
 
 
+rule viewer:
+    input:
+        library("viewer"),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+        solutions=solution_files,
+        tables=viewer_tables,
+    output:
+        "results/{scene}/viewer.html",
+    log:
+        "results/{scene}/logs/viewer.log",
+    params:
+        content=content("viewer"),
+        asked=parts("title", "elements", "levels", "norms"),
+        folder=subpath(output[0], parent=True),
+    shell:
+        "python3 -m signorini viewer {input.scene:q} --results {params.folder:q}"
+        " --mesh {input.mesh:q} -o {output:q} 2>&1 | tee {log:q}"
+
+
 rule vtu:
     input:
         library("vtu"),

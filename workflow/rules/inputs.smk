@@ -231,6 +231,12 @@ def shown(wildcards):
     return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
 
 
+def viewer_tables(wildcards):
+    """What the viewer tells beside the solutions."""
+    asked = scene(wildcards.scene).document["outputs"]
+    return ["results/{scene}/errors.csv"] * ("errors" in asked)
+
+
 def figure_options(wildcards):
     """Options of the figures for what `shown` lists."""
     return " ".join(f"--{name} {quote(value)}" for name, value in shown(wildcards).items())

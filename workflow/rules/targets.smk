@@ -20,6 +20,7 @@ def scene_output(name):
     files += ["outputs.csv"] if asked.document["quantities"] else []
     files += ["expect.txt"] if "expect" in asked.document else []
     files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
+    files += ["viewer.html"] if "viewer" in outputs else []
     files += (named_figures(name) or ["figures"]) if "figures" in outputs else []
     built = [f"results/{name}/{file}" for file in files]
     return solutions(name) + built + sweep_output(name)

@@ -32,6 +32,7 @@ CATALOGUE = {
         "contact-line": "tabulate what happens along the contact part",
         "figures": "draw the figures of a scene",
         "gallery": "draw the solutions of many scenes on one sheet",
+        "viewer": "write a page on which the solutions can be turned",
         "vtu": "write a solution as VTU, for ParaView",
     },
     "A sweep": {

@@ -1,0 +1,78 @@
+"""Write the viewer of a scene: a page with its solutions as surfaces to turn, for any browser.
+
+The solutions are those of a build, and beside them its errors.csv and certificates.csv where it has
+them. Without --results the scene is solved here, and errors are left out.
+
+example:
+  signorini viewer config/scenes/punch.yaml --results results/punch -o viewer.html
+"""
+
+from pathlib import Path
+
+from signorini.api.solving import solve_levels
+from signorini.commands.catalogue import Outcome
+from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.exceptions import SceneError
+from signorini.report.viewer import viewer_data
+from signorini.report.viewer_page import viewer_page
+from signorini.scene.scene import naming
+from signorini.solvers.stored import read_solution
+from signorini.storage import read_csv, write_text
+
+
+def add_arguments(parser):
+    """Declare the command's arguments."""
+    add_scene(parser)
+    parser.add_argument(
+        "--results", metavar="FOLDER", type=Path, help="where the scene was built, results/NAME"
+    )
+    parser.add_argument(
+        "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
+    )
+    add_output(parser, "the page, .html")
+
+
+def run(arguments):
+    """Gather and write.
+
+    Raises
+    ------
+    SceneError
+        If a solution of the scene is not in the folder.
+    """
+    scene, folder = scene_of(arguments.scene), arguments.results
+    with naming(scene.source):
+        data = viewer_data(
+            scene,
+            domain_of(scene, arguments.mesh),
+            _solutions(scene, folder),
+            _table(folder, "errors.csv"),
+            _table(folder, "certificates.csv"),
+        )
+    page = viewer_page(data)
+    write_text(arguments.output, page)
+    megabytes = len(page.encode()) / 1e6
+    return Outcome(f"viewer: {len(data['solutions'])} solutions, {megabytes:.1f} MB")
+
+
+def _solutions(scene, folder):
+    """Those of a build, or without one solved here, one after the other."""
+    if folder is None:
+        return solve_levels(scene)
+    files = [
+        folder / "solutions" / element / f"n{n}.npz"
+        for element in scene.elements
+        for n in scene.levels
+    ]
+    missing = [file for file in files if not file.is_file()]
+    if missing:
+        raise SceneError(
+            f"--results {folder}: there is no {missing[0]}; build the scene with "
+            f"snakemake --config scenes=[{scene.name}], or drop --results"
+        )
+    return map(read_solution, files)
+
+
+def _table(folder, name):
+    """The rows of a table of a build, or none where there is no such table."""
+    return read_csv(folder / name) if folder and (folder / name).is_file() else ()

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from sixth_choices import sixth_choice
 
 from signorini import load_scene
 from signorini.open_choices import solves
@@ -186,7 +187,7 @@ def test_coarse_levels_are_held_against_their_own_numbers():
 
 
 def test_the_page_says_what_was_found():
-    text = page("markdown", combined(), falling(), 512)
+    text = page("markdown", combined(), falling(), 512, sixth_choice())
     assert "quick" not in text
     assert (
         "All 24 errors are matched by 4 of them: diagonal falling, load by centroid,"
@@ -201,18 +202,35 @@ def test_the_page_says_what_was_found():
 
 
 def test_the_quick_page_is_not_mistaken_for_the_full_one():
-    text = page("markdown", combined_quick(), quick(), 64, quick=True)
+    text = page("markdown", combined_quick(), quick(), 64, sixth_choice(), quick=True)
     assert text.splitlines()[0].endswith("(quick variant)")
     assert "$N$ up to 16 and a reference with $h = 1/64$, which is not the paper's" in text
     assert "No combination matches all 16 errors" in text
 
 
 def test_the_fragment_says_the_same():
-    text = page("latex", combined(), falling(), 512)
+    text = page("latex", combined(), falling(), 512, sixth_choice())
     assert text.startswith("\\section{Sensitivity to what the paper leaves open}\n")
     assert r"(\autoref{figure:sensitivity_matches})" in text
     assert r"load: exact & NNNNNN & 0 & 0 & 48\,\% & 1.9, 2.0 & 1.0, 1.0 \\" in text
     assert text.count("{") == text.count("}")
+
+
+def test_the_page_says_how_many_digits_a_sixth_choice_meets():
+    text = page("markdown", combined(), falling(), 512, sixth_choice())
+    assert "## A sixth choice" in text
+    assert "19 of 24 errors agree with the paper to the last printed digit" in text
+    assert "| none | 19 | 0.68 | 19 | 0.68 |" in text
+    assert "| load in single precision | 20 | 0.65 | 24 | 0.47 |" in text
+    assert "the cause is not identified" in text
+    assert "draws" not in text  # there were none
+
+
+def test_the_page_says_how_many_digits_chance_meets():
+    drawn = {18: 900, 19: 95, 24: 5}
+    counts = [{"digits": float(digits), "draws": float(n)} for digits, n in drawn.items()]
+    text = page("markdown", combined(), falling(), 512, sixth_choice(counts))
+    assert "24 of 24 digits come out in 0.50 % of 1000 draws, and 19 or more in 10 %" in text
 
 
 def test_the_figures_show_the_rows(tmp_path):

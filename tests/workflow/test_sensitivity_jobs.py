@@ -9,6 +9,7 @@ QUICK = ("sensitivity", "--config", "quick=true")
 JOBS = {
     "sensitivity_errors": 5,
     "sensitivity_combinations": 1,
+    "sensitivity_digits": 1,
     "figure_sensitivity": 1,
     "sensitivity": 1,
 }
@@ -35,6 +36,7 @@ def test_files(built):
         for ending in ("pdf", "png")
     }
     pages = {"sensitivity.csv", "sensitivity_ratios.csv", "sensitivity.tex", "sensitivity.md"}
+    pages |= {"sensitivity_digits.csv", "sensitivity_chance.csv"}
     diagonals = ("falling", "rising", "alternating", "alternating-rising", "criss-cross")
     errors = {f"errors/{diagonal}.csv" for diagonal in diagonals}
     assert found == pages | pictures | errors | {"paper/scene.json"}

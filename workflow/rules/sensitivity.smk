@@ -50,6 +50,31 @@ rule sensitivity_combinations:
         " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"
 
 
+# The last printed digits. Among the hypotheses of the full study is a solver of many sweeps, which takes minutes.
+rule sensitivity_digits:
+    input:
+        library("sensitivity digits"),
+        scene=ancient(studied_scene),
+        published=studied_published,
+    output:
+        digits=f"{SENSITIVITY}/sensitivity_digits.csv",
+        chance=f"{SENSITIVITY}/sensitivity_chance.csv",
+    log:
+        f"{SENSITIVITY}/logs/digits.log",
+    benchmark:
+        f"{SENSITIVITY}/benchmarks/digits.tsv"
+    priority: 10
+    params:
+        content=content("sensitivity digits", studied_published),
+        statement=studied_statement,
+        asked=of_studied("elements", "levels", "truth"),
+        quick=QUICK_OPTION,
+        folder=subpath(output[0], parent=True),
+    shell:
+        "python3 -m signorini sensitivity digits {input.scene:q} --published {input.published:q}"
+        " {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"
+
+
 rule figure_sensitivity:
     input:
         library("sensitivity figures"),
@@ -75,6 +100,8 @@ rule sensitivity:
         rules.figure_sensitivity.output,
         scene=ancient(studied_scene),
         errors=rules.sensitivity_combinations.input.errors,
+        digits=rules.sensitivity_digits.output.digits,
+        chance=rules.sensitivity_digits.output.chance,
         published=studied_published,
     output:
         tex=f"{SENSITIVITY}/sensitivity.tex",
@@ -88,4 +115,5 @@ rule sensitivity:
         folder=subpath(output[0], parent=True),
     shell:
         "python3 -m signorini sensitivity report {input.scene:q} {input.errors:q}"
+        " --digits {input.digits:q} --chance {input.chance:q}"
         " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"

@@ -62,6 +62,7 @@ CATALOGUE = {
     "The sensitivity study": {
         "sensitivity errors": "measure a scene's errors under other options",
         "sensitivity combinations": "compare every combination with published numbers",
+        "sensitivity digits": "count the last digits that a sixth choice meets",
         "sensitivity figures": "draw its figures",
         "sensitivity report": "write its page",
     },

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_BITS = 24  # of the significand in single precision, the leading one included
+BITS = 24  # of the significand in single precision, the leading one included
 
 
 def to_single(values):
@@ -33,7 +33,7 @@ def to_single(values):
     True
     """
     significand, exponent = np.frexp(values)
-    return np.ldexp(np.rint(np.ldexp(significand, _BITS)), exponent - _BITS)
+    return np.ldexp(np.rint(np.ldexp(significand, BITS)), exponent - BITS)
 
 
 def _as_it_is(values):

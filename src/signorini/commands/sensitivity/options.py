@@ -11,14 +11,19 @@ def add_comparison(parser):
     """Add what a comparison of all combinations with the published numbers takes."""
     add_scene(parser)
     parser.add_argument("errors", nargs="+", metavar="ERRORS", help="the errors of each diagonal")
-    parser.add_argument("--published", required=True, metavar="FILE", help="the published numbers")
+    add_published(parser)
     add_quick(parser)
+
+
+def add_published(parser):
+    """Add the published numbers, and the folder for what they are compared with."""
+    parser.add_argument("--published", required=True, metavar="FILE", help="the published numbers")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
 
 
-def add_quick(parser):
+def add_quick(parser, told="coarse levels only"):
     """Add the option ``--quick``."""
-    parser.add_argument("--quick", action="store_true", help="coarse levels only")
+    parser.add_argument("--quick", action="store_true", help=told)
 
 
 def levels_of(scene, quick):

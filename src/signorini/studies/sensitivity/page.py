@@ -18,7 +18,7 @@ PAGE = "studies/sensitivity/page.md.j2"
 _SLOPES = [f"slope_{norm}_{element}" for norm, element in SERIES]
 
 
-def page(layout, rows, errors, reference_n, quick=False):
+def page(layout, rows, errors, reference_n, sixth, quick=False):
     """Put the page together.
 
     Parameters
@@ -30,6 +30,7 @@ def page(layout, rows, errors, reference_n, quick=False):
         What the rows were computed from.
     reference_n : int
         1/h of the reference.
+    sixth : SixthChoice
     quick : bool, optional
         Whether this is a part of the study only.
 
@@ -53,6 +54,7 @@ def page(layout, rows, errors, reference_n, quick=False):
         "rankings": _rankings(pairs, levels),
         "loads": _loads(pairs),
     }
+    shown |= {"sixth": sixth}
     shown |= _matches(frame) | _conclusions(frame, pairs, levels)
     return render(PAGE, layout, **shown)
 

@@ -81,7 +81,9 @@ def with_curved_sides(mesh, curves):
             )
     ends = {part_key(name): mesh.parts[name] for name in curves}
     check_ends(mesh.p, mesh.facets[:, mesh.boundary], curves, ends)
-    return replace(mesh, p=followed(mesh.p, mesh.t, curves, ends))
+    moved = replace(mesh, p=followed(mesh.p, mesh.t, curves, ends))
+    moved.__dict__["_facets"] = mesh._facets  # which are found once: triangles are the same
+    return moved
 
 
 def check_ends(p, boundary, curves, ends):

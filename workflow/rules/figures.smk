@@ -134,6 +134,7 @@ rule viewer:
 rule vtu:
     input:
         library("vtu"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
         solution=lambda wildcards: finest(wildcards, wildcards.element),
     output:
@@ -144,5 +145,29 @@ rule vtu:
         "results/{scene}/benchmarks/vtu_{element}.tsv"
     params:
         content=content("vtu"),
+        coefficient=coefficient,
     shell:
-        "python3 -m signorini vtu {input.mesh:q} {input.solution:q} -o {output:q} 2>&1 | tee {log:q}"
+        "python3 -m signorini vtu {input.mesh:q} {input.solution:q} --scene {input.scene:q}"
+        " -o {output:q} 2>&1 | tee {log:q}"
+
+
+# All levels, for ParaView to play.
+rule vtu_series:
+    input:
+        library("vtu"),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+        solutions=levels_of_element,
+    output:
+        series="results/{scene}/vtu/{element}.pvd",
+        files=directory("results/{scene}/vtu/{element}"),
+    log:
+        "results/{scene}/logs/vtu_series_{element}.log",
+    benchmark:
+        "results/{scene}/benchmarks/vtu_series_{element}.tsv"
+    params:
+        content=content("vtu"),
+        coefficient=coefficient,
+    shell:
+        "python3 -m signorini vtu {input.mesh:q} {input.solutions:q} --scene {input.scene:q}"
+        " -o {output.series:q} 2>&1 | tee {log:q}"

@@ -180,6 +180,16 @@ def solution_files(wildcards):
     return solutions(wildcards.scene)
 
 
+def levels_of_element(wildcards):
+    of_element = f"results/{wildcards.scene}/solutions/{wildcards.element}/"
+    return [file for file in solution_files(wildcards) if file.startswith(of_element)]
+
+
+def coefficient(wildcards):
+    """A parameter: the diffusion coefficient."""
+    return as_json(scene(wildcards.scene).document["data"]["coefficient"])
+
+
 def finest(wildcards, element=None):
     asked = scene(wildcards.scene)
     return f"results/{wildcards.scene}/solutions/{element or asked.elements[0]}/n{asked.levels[-1]}.npz"

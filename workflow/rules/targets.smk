@@ -19,7 +19,8 @@ def scene_output(name):
     files += [f"{names_of(asked.document)[TABLE]}.tex"] if "table" in outputs else []
     files += ["outputs.csv"] if asked.document["quantities"] else []
     files += ["expect.txt"] if "expect" in asked.document else []
-    files += [f"vtu/{element}.vtu" for element in asked.elements] if "vtu" in outputs else []
+    endings = ("vtu", "pvd") if "vtu" in outputs else ()
+    files += [f"vtu/{element}.{ending}" for element in asked.elements for ending in endings]
     files += ["viewer.html"] if "viewer" in outputs else []
     files += (named_figures(name) or ["figures"]) if "figures" in outputs else []
     built = [f"results/{name}/{file}" for file in files]

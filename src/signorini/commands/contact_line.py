@@ -9,7 +9,7 @@ from signorini.commands.inputs import add_mesh, add_output
 from signorini.exceptions import SceneError
 from signorini.fem.contact_line import contact_rows
 from signorini.mesh.domain import read_domain
-from signorini.solvers.stored import read_solution
+from signorini.solvers.stored import mesh_of, read_solution
 from signorini.storage import write_csv
 
 
@@ -32,7 +32,7 @@ def run(arguments):
     rows = []
     for path in arguments.solutions:
         solution = read_solution(path)
-        rows += contact_rows(domain.level(solution.n), solution)
+        rows += contact_rows(mesh_of(domain, solution), solution)
     if not rows:
         raise SceneError(
             "boundary: no degree of freedom is in contact; drop the contact line from outputs"

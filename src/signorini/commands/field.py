@@ -8,7 +8,7 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_mesh, add_output, add_solution
 from signorini.mesh.domain import read_domain
 from signorini.report.field import field_of
-from signorini.solvers.stored import read_solution
+from signorini.solvers.stored import mesh_of, read_solution
 from signorini.storage import write_npz
 
 
@@ -22,7 +22,7 @@ def add_arguments(parser):
 def run(arguments):
     """Prepare and write."""
     solution = read_solution(arguments.solution)
-    field = field_of(read_domain(arguments.mesh).level(solution.n), solution)
+    field = field_of(mesh_of(read_domain(arguments.mesh), solution), solution)
     write_npz(arguments.output, kind="field", **field)
     return Outcome(
         f"field: {solution.element} n = {solution.n} on {field['t'].shape[1]} triangles, "

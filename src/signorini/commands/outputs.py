@@ -16,7 +16,7 @@ from signorini.exceptions import SceneError
 from signorini.fem.problem import discretize_on
 from signorini.report.outputs import output_rows
 from signorini.scene.scene import naming
-from signorini.solvers.stored import read_solution
+from signorini.solvers.stored import mesh_of, read_solution
 from signorini.storage import write_csv
 
 _SHOWN = ("element", "n", "h", "name", "value", "unit")
@@ -45,7 +45,7 @@ def run(arguments):
         domain = domain_of(scene, arguments.mesh)
         rows = []
         for solution in _solutions(scene, arguments.solutions):
-            mesh = domain.level(solution.n)
+            mesh = mesh_of(domain, solution)
             problem = discretize_on(mesh, solution.element, scene.problem_statement)
             rows += output_rows(problem, solution, quantities)
     if arguments.output:

@@ -8,7 +8,7 @@ from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_mesh, add_output, add_solution
 from signorini.fem.contact_line import contact_line, sampled_surface
 from signorini.mesh.domain import read_domain
-from signorini.solvers.stored import read_solution
+from signorini.solvers.stored import mesh_of, read_solution
 from signorini.storage import write_npz
 
 _CELLS = 32
@@ -24,7 +24,7 @@ def add_arguments(parser):
 def run(arguments):
     """Sample and write."""
     solution = read_solution(arguments.solution)
-    mesh = read_domain(arguments.mesh).level(solution.n)
+    mesh = mesh_of(read_domain(arguments.mesh), solution)
     line = contact_line(mesh, solution)
     samples = sampled_surface(mesh, solution.u, _CELLS)
     write_npz(arguments.output, kind="surface", **samples, **line)

@@ -1,28 +1,82 @@
-"""Write a solution as VTU, which ParaView and meshio read: u, its gradient, the labelled boundary.
+"""Write solutions as VTU, which ParaView and meshio read: u, its gradient, boundary and contact.
+
+Several levels of one element become a series, FILE.pvd, with a file for each level in the folder
+FILE beside it. With --scene the coefficient is written, too.
 
 example:
   signorini vtu mesh.npz u.npz -o u.vtu
+  signorini vtu mesh.npz n8.npz n16.npz --scene config/scenes/punch.yaml -o P1.pvd
 """
 
+from pathlib import Path
+
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_mesh, add_output, add_solution
+from signorini.commands.inputs import add_mesh, add_output, scene_of
+from signorini.exceptions import SignoriniError
+from signorini.fem.coefficient import coefficient_on
+from signorini.fem.data import read_coefficient
 from signorini.mesh.domain import read_domain
-from signorini.report.vtu import write_vtu
-from signorini.solvers.stored import read_solution
+from signorini.report.vtu import write_series, write_vtu
+from signorini.solvers.stored import mesh_of, read_solution
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_mesh(parser)
-    add_solution(parser)
-    add_output(parser, "the file, .vtu")
+    parser.add_argument("solutions", metavar="SOLUTION", nargs="+", help="solutions, .npz")
+    parser.add_argument("--scene", metavar="SCENE", type=Path, help="writes its coefficient")
+    add_output(parser, "the file: .vtu of one solution, .pvd of a series")
 
 
 def run(arguments):
-    """Write the file."""
-    solution = read_solution(arguments.solution)
-    mesh = read_domain(arguments.mesh).level(solution.n)
-    write_vtu(arguments.output, mesh, solution)
-    return Outcome(
-        f"vtu: {solution.element} n = {solution.n}, {mesh.number_of_triangles} triangles"
-    )
+    """Write the file, or the series.
+
+    Raises
+    ------
+    SignoriniError
+        If the ending is neither, or solutions are not one for a file or a series.
+    MeshError
+        If a solution is not one on this mesh.
+    """
+    path = Path(arguments.output)
+    if path.suffix not in (".vtu", ".pvd"):
+        raise SignoriniError(f"-o {path}: end it in .vtu, or in .pvd for a series of levels")
+    if path.suffix == ".vtu" and len(arguments.solutions) > 1:
+        raise SignoriniError(f"-o {path}: holds one solution; end it in .pvd for a series")
+    domain = read_domain(arguments.mesh)
+    scene = scene_of(arguments.scene) if arguments.scene else None
+    files = {}
+    for source in arguments.solutions:
+        solution = read_solution(source)
+        target = _target(path, solution, files)
+        mesh = mesh_of(domain, solution)
+        write_vtu(target, mesh, solution, _coefficient(scene, mesh))
+        files[solution.element, solution.n] = target
+    if path.suffix == ".pvd":
+        levels = {n: f"{path.stem}/{target.name}" for (_, n), target in files.items()}
+        write_series(path, levels)
+    names = [f"{element} n = {n}" for element, n in files]
+    return Outcome(f"vtu: {', '.join(names)}")
+
+
+def _target(path, solution, files):
+    """Where a solution is written; those of a series are of one element, and differ in level."""
+    if path.suffix == ".vtu":
+        return path
+    elements = {element for element, _ in files} | {solution.element}
+    if len(elements) > 1 or (solution.element, solution.n) in files:
+        raise SignoriniError(
+            f"{solution.element} n = {solution.n}: a series takes each level of one element once; "
+            "give another -o"
+        )
+    return path.with_suffix("") / f"n{solution.n}.vtu"
+
+
+def _coefficient(scene, mesh):
+    """The coefficient on every triangle, where there is a scene to ask."""
+    if scene is None:
+        return {}
+    import numpy as np
+
+    given = coefficient_on(mesh, read_coefficient(scene.document["data"]["coefficient"]))
+    return {"coefficient": np.ones(mesh.number_of_triangles) if given is None else given}

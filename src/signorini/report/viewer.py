@@ -13,6 +13,7 @@ from signorini.errors.norms import NORMS
 from signorini.fem.contact_line import contact_rows, critical_places
 from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.report.field import field_of
+from signorini.solvers.stored import mesh_of
 
 MOST_TRIANGLES = 4096  # of a surface, where the mesh has coarser ones
 MOST_POINTS = 400  # of a contact line, besides those at its critical points
@@ -54,7 +55,7 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=()):
     meshes, shown = {}, []
     errors, certificates = _by_solution(errors), _by_solution(certificates)
     for solution in solutions:
-        mesh = domain.level(solution.n)
+        mesh = mesh_of(domain, solution)
         key = (solution.element, solution.n)
         shown.append(
             _shown(mesh, solution, meshes)

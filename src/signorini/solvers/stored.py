@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from signorini.exceptions import MeshError
+from signorini.fem.elements import find_element
 from signorini.storage import read_npz, write_npz
 
 
@@ -138,3 +140,41 @@ def read_solution(path):
     return StoredSolution(
         **{key: value if value.ndim else value.item() for key, value in arrays.items()}
     )
+
+
+def mesh_of(domain, solution):
+    """The mesh of a stored solution.
+
+    Parameters
+    ----------
+    domain : Rectangle or Refined
+    solution : StoredSolution
+
+    Returns
+    -------
+    Grid or Triangulation
+
+    Raises
+    ------
+    MeshError
+        If the solution cannot be one on this domain: another mesh width, number of unknowns, or
+        contact part.
+    """
+    mesh = domain.level(solution.n)
+    element = find_element(solution.element)
+    belongs = (
+        solution.u.shape == (element.size(mesh),)
+        and solution.h == domain.mesh_size(solution.n)
+        and np.array_equal(solution.contact, _contact_dofs(mesh, element))
+    )
+    if not belongs:
+        raise MeshError(
+            f"{solution.element} n = {solution.n}, {solution.u.size} unknowns: not a solution on "
+            f"this mesh, which has {element.size(mesh)} there; give the mesh of its scene"
+        )
+    return mesh
+
+
+def _contact_dofs(mesh, element):
+    fixed = element.boundary_dofs(mesh, "dirichlet")
+    return np.setdiff1d(element.boundary_dofs(mesh, "contact"), fixed, assume_unique=True)

@@ -202,7 +202,7 @@ class Solution(SolverSolution):
         return _saved(draw_contact_line(rows), path)
 
     def to_vtu(self, path: str | Path) -> None:
-        """Write u, its gradient and the labelled boundary for ParaView.
+        """Write u, its gradient, the coefficient, the boundary and the contact for ParaView.
 
         Parameters
         ----------
@@ -216,7 +216,9 @@ class Solution(SolverSolution):
         """
         from signorini.report.vtu import write_vtu
 
-        write_vtu(path, self.problem.mesh, self._stored)
+        given, mesh = self.problem.coefficient, self.problem.mesh
+        coefficient = np.ones(mesh.number_of_triangles) if given is None else given
+        write_vtu(path, mesh, self._stored, {"coefficient": coefficient})
 
     def to_skfem(self) -> tuple[Any, Floats]:
         """The solution as scikit-fem has it.

@@ -7,9 +7,11 @@ from pathlib import Path
 
 STUDIES = Path(__file__).resolve().parent / "studies"
 REFERENCE = {"scene": "paper", "element": "P1", "method": "fourier", "n": "512"}
+SIXTH = {"hypothesis": "load in single precision", "of": "all"}
 PROMISES = """\
 - **A paper's numbers, checked digit by digit.** Its table and figures are rebuilt from the problem
-  alone: {met} ([the paper](docs/paper.md)).
+  alone: {met} ([the paper](docs/paper.md)),
+  {sixth} with [a sixth choice](docs/studies/sensitivity/sensitivity.md#a-sixth-choice).
 - **Solutions that say how far to trust them.** Each states its residual, the errors of u and of the
   contact forces that rounding leaves, and the contact unknowns that it leaves open. Of {solutions}
   solves of generated problems {solved} are called `solved`; held against extended precision,
@@ -30,7 +32,14 @@ def promises(verdict):
         The line of results/paper/check.txt.
     """
     met = verdict.partition(";")[0]
-    return PROMISES.format(met=met, **proofs(), **speed())
+    return PROMISES.format(met=met, sixth=sixth_choice(), **proofs(), **speed())
+
+
+def sixth_choice():
+    """How many last digits are met with the load in single precision, by the sensitivity study."""
+    rows = _rows("sensitivity/sensitivity_digits.csv")
+    row = next(row for row in rows if row.items() >= SIXTH.items())
+    return f"{row['digits']} of {row['errors']}"
 
 
 def proofs():

@@ -99,11 +99,14 @@ def test_every_scene_of_a_page_ships(update):
 
 def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_path):
     page = update.first_page
-    for name in ("stability", "benchmark"):
+    for name in ("stability", "benchmark", "sensitivity"):
         (tmp_path / name).mkdir()
     statuses = "solutions,solved,wrong\n10,7,0\n5,4,1\n"
     times = "scene,element,method,n,dofs,total\npaper,CR,fourier,512,9,1\n"
     times += "paper,P1,fourier,256,9,1\npaper,P1,fourier,512,262656,0.0316\n"
+    digits = "hypothesis,of,errors,digits\nnone,all,24,19\n"
+    digits += "load in single precision,reference,24,20\nload in single precision,all,24,23\n"
+    (tmp_path / "sensitivity/sensitivity_digits.csv").write_text(digits, encoding="utf-8")
     (tmp_path / "stability/statuses.csv").write_text(statuses, encoding="utf-8")
     (tmp_path / "benchmark/benchmark.csv").write_text(times, encoding="utf-8")
     monkeypatch.setattr(page, "STUDIES", tmp_path)
@@ -111,6 +114,7 @@ def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_pa
     assert page.speed() == {"unknowns": "262656", "milliseconds": pytest.approx(31.6)}
     text = page.promises("all 28 numbers met; largest distance 1\n")
     assert "all 28 numbers met (" in text
+    assert "23 of 24 with [a sixth choice]" in text
     assert "262656 unknowns, takes 32 ms" in text
 
 

@@ -15,6 +15,7 @@ from signorini.studies.sensitivity.combinations import (
 )
 
 PAGE = "studies/sensitivity/page.md.j2"
+SIXTH_CHOICE = "studies/sensitivity/sixth_choice.md.j2"
 _SLOPES = [f"slope_{norm}_{element}" for norm, element in SERIES]
 
 
@@ -54,7 +55,7 @@ def page(layout, rows, errors, reference_n, sixth, quick=False):
         "rankings": _rankings(pairs, levels),
         "loads": _loads(pairs),
     }
-    shown |= {"sixth": sixth}
+    shown |= {"sixth": sixth, "sixth_choice": SIXTH_CHOICE}
     shown |= _matches(frame) | _conclusions(frame, pairs, levels)
     return render(PAGE, layout, **shown)
 

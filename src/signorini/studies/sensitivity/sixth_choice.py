@@ -27,11 +27,11 @@ class SixthChoice:
 
     @cached_property
     def rows(self):
-        """A row for each hypothesis: its name, and what was found of the reference and of all."""
+        """A row for each hypothesis: its name, what was found of the reference, and of all or None."""
         found = {}
         for row in self.digits:
             found.setdefault(row["hypothesis"], {})[row["of"]] = row
-        return [{"name": name} | by_of for name, by_of in found.items()]
+        return [{"name": name, ALL: None} | by_of for name, by_of in found.items()]
 
     @property
     def errors(self):

@@ -245,7 +245,7 @@ def test_the_page_says_what_else_meets_all_digits():
     assert "| projected SOR, omega = 1.9 | 24 | 0.490 | 24 | 0.490 |" in text
     assert "So does a projected SOR that stops early: 24, the worst off by 0.49. It leaves" in text
     assert (
-        "off by up to $5.8\\cdot 10^{-9}$. A reference that is lowered by $6.0\\cdot 10^{-9}$ in its"
+        "off by up to $5.8\\cdot 10^{-9}$. A reference that is lowered by $6.0\\cdot 10^{-9}$"
         in text
     )
 

@@ -27,7 +27,7 @@ class SixthChoice:
 
     @cached_property
     def rows(self):
-        """A row for each hypothesis: its name, what was found of the reference, and of all or None."""
+        """A row for each hypothesis: what was found of the reference, and of all or None."""
         found = {}
         for row in self.digits:
             found.setdefault(row["hypothesis"], {})[row["of"]] = row

@@ -20,7 +20,8 @@ def run_of(steps, seconds, element=_ELEMENT):
     -------
     pandas.DataFrame
         Indexed by step: ``dofs``, ``upper``, ``lower``, ``error``, ``effectivity``, ``own``, the
-        seconds of making its mesh and solving and certifying on it alone, and ``total``, those of all steps so far.
+        seconds of making its mesh and solving and certifying on it alone, and ``total``, those of
+        all steps so far.
     """
     rows = pd.DataFrame([row for row in steps if row["element"] == element]).set_index("step")
     took = pd.DataFrame(seconds).set_index("step")[_STAGES]

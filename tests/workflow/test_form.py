@@ -20,9 +20,9 @@ RULES = {
 # measures tells its own time.
 COMPUTING = re.compile(
     r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers"
-    r"|errors\.measure|report\.field"
+    r"|errors\.measure|report\.field|certificate\.level"
     r"|open_choices\.\w+|studies\.sensitivity\.errors|studies\.theory\.estimates)"
-    r" import (?!count_solves|[A-Z]+\b)",
+    r" import (?!count_solves|read_level|[A-Z]+\b)",
     re.M,
 )
 

@@ -3,6 +3,7 @@
 from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.publication.check import check_publication
+from signorini.scene.checks import is_certified
 from signorini.scene.read import check_name, check_points, read_scene, scene_of_point
 from signorini.scene.validated import keep_validated
 from signorini.wording import listed
@@ -222,6 +223,19 @@ def reference_option(wildcards, input):
     return f"--reference {quote(str(input.reference))}" if input.reference else ""
 
 
+def certificate_files(wildcards):
+    return [
+        f"results/{wildcards.scene}/certificates/n{n}.npz" for n in scene(wildcards.scene).levels
+    ]
+
+
+def certifiable_scenes():
+    """Every scene of which guaranteed bounds can be had: the triangles fill its body."""
+    return [
+        name for name in known_scenes() if not scene(name).document["domain"].get("boundary_shape")
+    ]
+
+
 def drawn_norms(document):
     return (
         [norm for norm in document["norms"] if norm in RATED]
@@ -238,6 +252,8 @@ def shown(wildcards):
         files |= {"line": "contact_line.csv"}
     if drawn_norms(document):
         files |= {"errors": "errors.csv", "rates": "rates.csv"}
+    if is_certified(document):
+        files |= {"certificates": "certificates.csv"}
     return {name: f"results/{wildcards.scene}/{file}" for name, file in files.items()}
 
 

@@ -16,7 +16,9 @@ def scene_output(name):
     asked = scene(name)
     outputs = asked.document["outputs"]
     files = [f"{output}.csv" for output in ("errors", "rates", "steps") if output in outputs]
-    files += [f"{names_of(asked.document)[TABLE]}.tex"] if "table" in outputs else []
+    if "table" in outputs and asked.truth["kind"] != "certificate":
+        files += [f"{names_of(asked.document)[TABLE]}.tex"]
+    files += ["certificates.csv"] if is_certified(asked.document) else []
     files += ["outputs.csv"] if asked.document["quantities"] else []
     files += ["expect.txt"] if "expect" in asked.document else []
     endings = ("vtu", "pvd") if "vtu" in outputs else ()

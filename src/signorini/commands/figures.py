@@ -9,6 +9,7 @@ from pathlib import Path
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_scene, scene_of
 from signorini.errors.norms import RATED
+from signorini.figures.certificates import draw_certificates
 from signorini.figures.contact_line import draw_contact_line
 from signorini.figures.convergence import draw_convergence
 from signorini.figures.field import draw_field
@@ -31,6 +32,9 @@ def add_arguments(parser):
     parser.add_argument(
         "--rates", metavar="FILE", help="the output of `signorini rates`; needs --errors"
     )
+    parser.add_argument(
+        "--certificates", metavar="FILE", help="the output of `signorini certificates`"
+    )
     parser.add_argument("-o", "--output", required=True, metavar="FOLDER", help="where to draw")
 
 
@@ -43,6 +47,8 @@ def run(arguments):
         figures["contact_line"] = draw_contact_line(read_csv(arguments.line))
     if arguments.errors and arguments.rates:
         figures |= _convergence(scene, arguments.errors, arguments.rates)
+    if arguments.certificates:
+        figures["certificates"] = draw_certificates(read_csv(arguments.certificates))
     for name, figure in figures.items():
         for ending in ("pdf", "png"):
             save_figure(figure, Path(arguments.output, f"{name}.{ending}"))

@@ -56,7 +56,7 @@ def draw_convergence(errors, norm, slopes=None):
         h, error = [point["h"] for point in own], [point["error"] for point in own]
         axes.plot(h, error, label=_label(element, slopes), **ELEMENT_STYLES[element])
     _set_limits(axes, points)
-    _label_levels(axes, {point["n"]: point["h"] for point in points})
+    label_levels(axes, {point["n"]: point["h"] for point in points})
     _draw_triangle(axes, _lowest_errors(points), ORDERS.get(norm, 1))
     title = NORMS[norm].axis if norm in NORMS else norm.replace("_", " ")
     axes.set(xlabel="mesh width $h$", ylabel=title)
@@ -97,10 +97,14 @@ def _set_limits(axes, points):
             set_limits(10.0**low, 10.0 ** max(high, low + 1))
 
 
-def _label_levels(axes, levels):
+def label_levels(axes, levels):
     """Put a tick at every mesh width, and a label at as many as there is room for.
 
-    `levels` is n -> h; where h is 1/n, the label says so.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    levels : dict of int to float
+        n -> h; where h is 1/n, the label says so.
     """
     names = [f"1/{n}" if math.isclose(n * h, 1) else f"{h:.2g}" for n, h in levels.items()]
     longest = max(map(len, names), default=0)

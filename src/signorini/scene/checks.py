@@ -71,6 +71,20 @@ def check_critical_points(document, exact):
     raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
 
 
+def is_certified(document):
+    """Whether a scene asks for guaranteed bounds.
+
+    Parameters
+    ----------
+    document : dict
+
+    Returns
+    -------
+    bool
+    """
+    return document["truth"]["kind"] == "certificate" or document["certificate"]
+
+
 def _check_rectangle(domain):
     _check_finite("domain.origin", domain["origin"])
     _check_finite("domain.size", domain["size"])
@@ -273,16 +287,34 @@ def _check_cells(document):
 
 def _check_outputs(document):
     kind, outputs = document["truth"]["kind"], document["outputs"]
-    for output in ("errors", "rates", "table"):
-        if output in outputs and kind == "none":
+    _check_certified(document)
+    without = {"none": ("errors", "rates", "table"), "certificate": ("errors", "rates")}
+    for output in without.get(kind, ()):
+        if output in outputs:
             raise SceneError(
                 f"outputs: {output} needs a truth to compare with; set truth.kind, or drop {output}"
             )
     for output in ("rates", "table"):
-        if output in outputs and len(document["levels"]) < 2:
+        if output in outputs and len(document["levels"]) < 2 and kind != "certificate":
             raise SceneError(
                 f"outputs: {output} needs two levels for a slope; add a level, or drop {output}"
             )
+
+
+def _check_certified(document):
+    """Refuse what has no guaranteed bounds, and what only a truth has."""
+    if not is_certified(document):
+        return
+    field = "truth.kind" if document["truth"]["kind"] == "certificate" else "certificate"
+    if document["domain"].get("boundary_shape"):
+        raise SceneError(
+            f"{field}: the triangles do not fill a body with domain.boundary_shape, so that "
+            "nothing of it is certified; drop one of the two"
+        )
+    if field == "truth.kind" and "expect" in document:
+        raise SceneError(
+            "expect: needs errors, which truth.kind certificate does not compute; drop it"
+        )
 
 
 def _check_norms(document):

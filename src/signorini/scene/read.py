@@ -15,6 +15,8 @@ from signorini.scene.strict_yaml import load_yaml
 from signorini.scene.sweep import check_sweep, sweep_points, with_values
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+# What is built by default where no errors are measured.
+_WITHOUT_ERRORS = {"none": (), "certificate": ("table", "figures")}
 _RESERVED = ("meshes", "studies", "quick")
 
 
@@ -175,8 +177,8 @@ def _validated_scene(written, name, path):
         with naming(path):
             check_sweep(document["sweep"], scene_schema())
     truth = document["truth"]["kind"]
-    if truth == "none" and "outputs" not in written:
-        document["outputs"] = []
+    if truth in _WITHOUT_ERRORS and "outputs" not in written:
+        document["outputs"] = list(_WITHOUT_ERRORS[truth])
     with naming(path):
         check_document(document)
         if truth != "exact":  # else what is not given is derived

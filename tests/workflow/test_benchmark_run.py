@@ -87,6 +87,9 @@ def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not
         "machine.json",
         "benchmark.tex",
         "benchmark.md",
+        "benchmark_reach.csv",
+        "benchmark_bias.csv",
+        "benchmark_comparisons.csv",
     }
     assert files == expected | figures
     assert not (built[0] / "results/studies").exists()

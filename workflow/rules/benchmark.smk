@@ -171,6 +171,9 @@ rule benchmark:
     output:
         tex=f"{BENCHMARK}/benchmark.tex",
         markdown=f"{BENCHMARK}/benchmark.md",
+        tables=expand(
+            f"{BENCHMARK}/benchmark_{{table}}.csv", table=["reach", "bias", "comparisons"]
+        ),
     log:
         f"{BENCHMARK}/logs/report.log",
     params:

@@ -7,6 +7,8 @@ from signorini.studies.benchmark.columns import COUNTS, SERIES, TOLERANCE, serie
 from signorini.studies.benchmark.summary import TARGETS, better, fastest
 
 PAGE = "studies/benchmark/page.md.j2"
+_SOONER = ("P1", "CR", "even")
+_OUTCOMES = ("wins", "even", "losses")
 
 
 def page(layout, points, rivals, summary, machine, settings):
@@ -37,12 +39,11 @@ def page(layout, points, rivals, summary, machine, settings):
         "titles": titles,
         "bias": summary["reference_bias"],
         "finest": _finest(curves, summary["growth"]),
-        "skipped": _skipped(points),
         "comparisons": _comparisons(summary),
         "absent": {row["rival"]: row["note"] for row in rivals if row["status"] == "absent"},
-        "ratios": _ratios(rivals),
     }
-    shown |= _reach(curves, summary["reach"])
+    shown |= _reach(curves, summary["reach"]) | _compared(shown["comparisons"])
+    shown["answer"] = _answer(shown["reach"], summary)
     return render(PAGE, layout, **shown, machine=machine, settings=settings)
 
 
@@ -69,15 +70,6 @@ def _finest(curves, growth):
     return [rows[-1] | {"exponents": exponents.get(key, {})} for key, rows in curves.items()]
 
 
-def _skipped(points):
-    """The first point left out of each series."""
-    first = {}
-    for row in points:
-        if row["status"] != "measured":
-            first.setdefault(tuple(row[name] for name in SERIES), row)
-    return list(first.values())
-
-
 def _comparisons(summary):
     """Per rival and route of ours, in the order of the rivals' titles."""
     verdicts, titles = summary["verdicts"], summary["titles"]
@@ -85,12 +77,45 @@ def _comparisons(summary):
     return sorted(rows, key=lambda row: titles[row["rival"]].lower())
 
 
-def _ratios(rivals):
-    """Route of ours -> problem -> rival -> row."""
+def _compared(comparisons):
+    """Rival -> route of ours -> row, and the routes."""
+    by_rival = {}
+    for row in comparisons:
+        by_rival.setdefault(row["rival"], {})[row["ours"]] = row
+    routes = list(dict.fromkeys(row["ours"] for row in comparisons))
+    return {"compared": by_rival, "routes": routes}
+
+
+def _answer(reached, summary):
+    """What the page begins with: who is sooner, how time grows, ours against others."""
+    firsts = [row["better"]["total"][0] or "even" for row in reached if "total" in row["better"]]
+    counts = {key: sum(row[key] for row in summary["comparisons"]) for key in _OUTCOMES}
+    found = {"errors": len(firsts), "sooner": {key: firsts.count(key) for key in _SOONER}}
+    return found | counts | {"pairs": sum(counts.values()), "times": _times(summary["growth"])}
+
+
+def _times(growth):
+    """Route -> least and largest exponent of its time."""
     by_route = {}
-    for row in rivals:
-        if row["ratio"] is not None:
-            problems = by_route.setdefault(row["ours"], {})
-            problem = row["scene"], row["element"], row["n"]
-            problems.setdefault(problem, {})[row["rival"]] = row
-    return by_route
+    for row in growth:
+        if row["quantity"] == "total":
+            by_route.setdefault(row["method"], []).append(row["exponent"])
+    return {method: (min(found), max(found)) for method, found in by_route.items()}
+
+
+def tables(summary):
+    """Tables too wide for the page, for files of their own.
+
+    Returns
+    -------
+    dict
+        Name -> rows: what each error costs by each route, what a coarser reference changes, and
+        the rivals against each route of ours.
+    """
+    verdicts = summary["verdicts"]
+    compared = [row | verdicts[row["rival"]] for row in summary["comparisons"]]
+    return {
+        "reach": summary["reach"],
+        "bias": summary["reference_bias"],
+        "comparisons": compared,
+    }

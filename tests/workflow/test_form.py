@@ -85,13 +85,6 @@ def test_report(paper):
     )
 
 
-def test_report_of_a_scene(small):
-    small.build("--report", "report.html")
-    text = (small / "report.html").read_text(encoding="utf-8")
-    assert all(name in text for name in ("solution.png", "contact_line.png", "l2.png", "h1.png"))
-    assert text.count("Errors against mesh width") == 2
-
-
 def test_no_two_files_of_tests_share_a_name():
     """Without packages pytest imports them by their names alone."""
     names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]

@@ -9,7 +9,12 @@ rule errors:
         reference=reference_file,
         solutions=solution_files,
     output:
-        "results/{scene}/errors.csv",
+        report(
+            "results/{scene}/errors.csv",
+            caption="../report/errors.rst",
+            category="{scene}",
+            labels={"shows": "errors of every solution"},
+        ),
     log:
         "results/{scene}/logs/errors.log",
     benchmark:

@@ -25,7 +25,10 @@ rule figure_surface:
     output:
         pdf="results/{scene}/surface.pdf",
         png=report(
-            "results/{scene}/surface.png", caption="../report/surface.rst", category="{scene}"
+            "results/{scene}/surface.png",
+            caption="../report/surface.rst",
+            category="{scene}",
+            labels={"shows": "reference solution"},
         ),
     log:
         "results/{scene}/logs/figure_surface.log",
@@ -82,6 +85,7 @@ rule figures:
             patterns=["{figure}.png"],
             caption="../report/figures.rst",
             category="{scene}",
+            labels={"shows": "figure: {figure}"},
         ),
     log:
         "results/{scene}/logs/figures.log",
@@ -100,7 +104,12 @@ rule gallery:
         scenes=ancient(lambda wildcards: [validated_file(name) for name in known_scenes()]),
         fields=expand("results/{scene}/field.npz", scene=known_scenes()),
     output:
-        report("results/gallery.png", caption="../report/gallery.rst"),
+        report(
+            "results/gallery.png",
+            caption="../report/gallery.rst",
+            category="all scenes",
+            labels={"shows": "solutions of all scenes"},
+        ),
     log:
         "results/logs/gallery.log",
     params:
@@ -119,7 +128,12 @@ rule viewer:
         solutions=solution_files,
         tables=viewer_tables,
     output:
-        "results/{scene}/viewer.html",
+        report(
+            "results/{scene}/viewer.html",
+            caption="../report/viewer.rst",
+            category="{scene}",
+            labels={"shows": "solutions to turn"},
+        ),
     log:
         "results/{scene}/logs/viewer.log",
     params:

@@ -16,7 +16,10 @@ use rule figure_surface as named_surface with:
     output:
         pdf="results/{scene}/{surface}.pdf",
         png=report(
-            "results/{scene}/{surface}.png", caption="../report/surface.rst", category="{scene}"
+            "results/{scene}/{surface}.png",
+            caption="../report/surface.rst",
+            category="{scene}",
+            labels={"shows": "reference solution"},
         ),
     log:
         "results/{scene}/logs/{surface}.log",
@@ -38,11 +41,15 @@ for name in scenes_with_names():
                 rates="results/{scene}/rates.csv",
             output:
                 pdf=[f"results/{{scene}}/{stem}.pdf" for stem in norm_figures(name).values()],
-                png=report(
-                    [f"results/{{scene}}/{stem}.png" for stem in norm_figures(name).values()],
-                    caption="../report/convergence.rst",
-                    category="{scene}",
-                ),
+                png=[
+                    report(
+                        f"results/{{scene}}/{stem}.png",
+                        caption="../report/convergence.rst",
+                        category="{scene}",
+                        labels={"shows": f"figure: {norm}"},
+                    )
+                    for norm, stem in norm_figures(name).items()
+                ],
             log:
                 "results/{scene}/logs/named_convergence.log",
             wildcard_constraints:
@@ -68,7 +75,12 @@ rule check:
         scene=ancient(scene_file),
         published=published_file,
     output:
-        report("results/{scene}/check.csv", caption="../report/check.rst", category="{scene}"),
+        report(
+            "results/{scene}/check.csv",
+            caption="../report/check.rst",
+            category="{scene}",
+            labels={"shows": "check against published numbers"},
+        ),
     log:
         "results/{scene}/logs/check.log",
     params:
@@ -137,7 +149,12 @@ rule paper:
         source=source_files,
         parts=lambda wildcards: parts_of(wildcards.scene),
     output:
-        report("results/{scene}/paper.pdf", caption="../report/paper.rst", category="{scene}"),
+        report(
+            "results/{scene}/paper.pdf",
+            caption="../report/paper.rst",
+            category="{scene}",
+            labels={"shows": "article"},
+        ),
     log:
         "results/{scene}/logs/paper.log",
     params:

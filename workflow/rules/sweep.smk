@@ -46,7 +46,12 @@ rule sweep_figure:
         table="results/{scene}/sweep.csv",
     output:
         pdf="results/{scene}/sweep.pdf",
-        png=report("results/{scene}/sweep.png", caption="../report/sweep.rst", category="{scene}"),
+        png=report(
+            "results/{scene}/sweep.png",
+            caption="../report/sweep.rst",
+            category="{scene}",
+            labels={"shows": "sweep"},
+        ),
     log:
         "results/{scene}/logs/sweep_figure.log",
     params:

@@ -1,6 +1,8 @@
 # What is built: by the scenes that the configuration asks for, and of each what it asks for itself.
 import atexit
 
+# A report is of what is built: Snakemake refuses one with a file that is not there.
+REPORTING = any(word.partition("=")[0] == "--report" for word in sys.argv)
 WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
 
 
@@ -34,9 +36,10 @@ def all_scenes():
 
 
 def final_output():
-    return [
+    files = [
         file for name in CONFIG["scenes"] for file in scene_output(name) + publication_output(name)
     ]
+    return list(filter(os.path.exists, files)) if REPORTING else files
 
 
 def untypeset():

@@ -85,3 +85,22 @@ def test_what_the_site_needs_agrees_with_the_other_requirements():
 
     ours, theirs = pins("requirements-docs.txt"), pins("requirements.txt")
     assert {name: ours[name] for name in ours.keys() & theirs.keys()} == {}
+
+
+STUDIES = sorted((DOCS / "studies").glob("*/*.md"))
+
+
+@pytest.mark.parametrize("page", STUDIES, ids=lambda page: page.stem)
+def test_a_study_begins_with_its_answer_and_a_picture(page):
+    title, answer, picture = page.read_text(encoding="utf-8").split("\n\n")[:3]
+    assert title.startswith("# ")
+    assert 2 <= len(re.findall(r"[.)](?: |$)", answer)) <= 8
+    assert picture.startswith("![")
+
+
+@pytest.mark.parametrize("page", STUDIES, ids=lambda page: page.stem)
+def test_a_table_of_a_study_is_no_wider_than_a_screen(page):
+    rows = re.findall(r"^\|.*\|$", page.read_text(encoding="utf-8"), re.M)
+    wide = [row for row in rows if row.count("|") > 6]  # in others sentences break into lines
+    assert max((row.count("|") - 1 for row in rows), default=0) <= 10
+    assert max(map(len, wide), default=0) <= 130

@@ -8,6 +8,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from signorini.figures.readable import readable_text
 from signorini.storage import replacing, sealing
 
 MM = 1 / 25.4  # inches
@@ -146,7 +147,7 @@ def save_figure(figure, path, colours=None, sealed=True):
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
     write = sealing if sealed else replacing
-    with matplotlib.rc_context(STYLE), write(path, "wb") as stream:
+    with matplotlib.rc_context(STYLE), readable_text(), write(path, "wb") as stream:
         if colours and path.suffix == ".png":
             _save_reduced(figure, stream, colours)
         else:

@@ -172,6 +172,8 @@ def test_it_is_drawn_tabulated_and_written(tmp_path):
         (lambda: solved().errors(solved(mesh=signorini.rectangle(6))), "do not nest"),
         (lambda: solved(contact=None).plot_contact(), "contact: the problem has no contact part"),
         (lambda: solved().plot("u.jpg"), "path: 'u.jpg' is no figure; end it in .pdf or .png"),
+        (lambda: solved().to_vtu("u.txt"), "path: 'u.txt' is no VTU file; end it in .vtu"),
+        (lambda: signorini.kkt_residual(solved().problem, np.zeros(3)), "u: shape (3,) is not"),
         (lambda: signorini.exact_solution("punch", width=1), "punch has no parameter 'width'"),
         (lambda: signorini.exact_solution("x", half_width=1), "a formula has none"),
         (lambda: signorini.exact_solution("x", critical_points=[1]), "give [(x, y), ...]"),

@@ -65,6 +65,9 @@ def test_against_a_finer_solution():
         (lambda: signorini.convergence(3), "scene: 3 (int) is neither a Scene nor a function"),
         (lambda: signorini.convergence(both), "levels: missing"),
         (lambda: signorini.convergence(both, [4]), "truth: missing"),
+        (lambda: signorini.convergence(both, [], "x"), "levels: [] (list) has no level; give"),
+        (lambda: signorini.convergence(both, 4, "x"), "levels: 4 (int) has no level; give"),
+        (lambda: signorini.convergence(lambda n: 3, [4], "x"), "problem_of_level: 3 (int) for n"),
         (lambda: signorini.convergence(lambda n: [n], [4], "x"), "problem_of_level: 4 (int) for n"),
         (
             lambda: signorini.convergence(signorini.Scene.from_dict(SCENE), [4]),

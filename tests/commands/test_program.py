@@ -89,6 +89,34 @@ def test_an_unknown_command_is_a_mistake_that_names_the_nearest(words, said, cap
     assert said in err
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["solve", "s.yaml", "--element", "P2"], "solve: argument --element: invalid choice: 'P2'"),
+        (["adapt", "s.yaml", "-o", "a", "--bound", "x"], "--bound: invalid float value: 'x'"),
+        (["adapt", "s.yaml"], "the following arguments are required: -o/--output"),
+        (["check", "s.yaml", "--jsn"], "unrecognized arguments: --jsn"),
+    ],
+)
+def test_a_wrong_argument_is_told_in_one_line(words, said, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    told = capsys.readouterr().err
+    assert ended.value.code == MISTAKE
+    assert said in told
+    assert told.endswith(f"; signorini {words[0]} --help explains the arguments\n")
+    assert told.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["check", "macros", "sweep"])
+def test_the_bare_name_of_a_scene_gets_its_path(command, capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    code, _, told = call(capsys, command, "smooth")
+    assert code == 1
+    assert told == "error: smooth: there is no such file; did you mean config/scenes/smooth.yaml?\n"
+    assert "`signorini scenes` lists the scenes" in call(capsys, command, "nothing")[2]
+
+
 def test_a_group_lists_its_parts(capsys):
     with pytest.raises(SystemExit) as ended:
         main(["stability"])

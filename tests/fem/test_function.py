@@ -74,6 +74,7 @@ def pole(x, y):
         (lambda x, y: np.zeros(2), ["shape (2,)", "shape (3,)"]),
         (lambda x, y: x if x > 0 else y, ["ValueError", "np.where"]),
         (lambda x: x, ["TypeError", "NumPy"]),
+        (lambda x, y: {}[0], ["KeyError", "NumPy"]),
         (lambda x, y: "many", ["<U4", "real"]),
         (lambda x, y: None, ["object", "real"]),
     ],

@@ -120,6 +120,10 @@ REFUSED = {
         "{data.obstacl: [1]}",
         "sweep.data.obstacl: the scene has no such key; did you mean data.obstacle",
     ),
+    "a key without its section": (
+        "{obstacle: [1]}",
+        "sweep.obstacle: the scene has no such key; did you mean data.obstacle",
+    ),
     "a key below a value": (
         "{load_quadrature.x: [1]}",
         "sweep.load_quadrature.x: the scene has no",

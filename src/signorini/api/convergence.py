@@ -147,6 +147,9 @@ def convergence(
     if levels is None or truth is None:
         missing = "levels" if levels is None else "truth"
         raise SceneError(f"{missing}: missing; beside a function of n give levels and truth")
+    levels = list(levels) if isinstance(levels, Iterable) else levels
+    if not levels or not isinstance(levels, list):
+        raise SceneError(f"levels: {described(levels)} has no level; give a list, as [8, 16, 32]")
     return as_frame(_rows(scene, levels, truth, norms))
 
 
@@ -169,7 +172,8 @@ def _rows(
     measure: Callable[..., dict[str, Any]] | None = None
     for n in levels:
         problems = problem_of_level(n)
-        for problem in [problems] if isinstance(problems, Problem) else problems:
+        several = isinstance(problems, Iterable) and not isinstance(problems, Problem)
+        for problem in problems if several else [problems]:
             solution = solve(_of_level(problem, n))
             measure = measure or measure_of(truth, solution, norms)
             rows.append(row(solution._stored, lambda _, s=solution, m=measure: m(s)))

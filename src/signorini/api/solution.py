@@ -211,9 +211,13 @@ class Solution(SolverSolution):
 
         Raises
         ------
+        SceneError
+            If the path ends otherwise.
         StorageError
             If the file cannot be written.
         """
+        if Path(path).suffix != ".vtu":
+            raise SceneError(f"path: {Path(path).name!r} is no VTU file; end it in .vtu")
         from signorini.report.vtu import write_vtu
 
         given, mesh = self.problem.coefficient, self.problem.mesh

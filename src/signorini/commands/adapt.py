@@ -1,10 +1,11 @@
 """Solve a scene on adaptive meshes until its energy error is guaranteed to be below a bound.
 
 Each step solves both elements, certifies them, and refines where the bound says. What was done is
-kept in the folder: interrupted, or asked for a smaller bound, the command goes on from there.
+kept in the folder: interrupted, or asked for a smaller bound, the command goes on from there. An
+option goes before the scene's section adapt, which goes before the defaults here.
 
 example:
-  signorini adapt config/scenes/corner.yaml --bound 0.05 -o FOLDER
+  signorini adapt config/scenes/corner.yaml --bound 0.05 -o results/corner/adapt
 """
 
 import logging
@@ -26,18 +27,35 @@ _DRAWN = 3000  # triangles of the finest mesh that is kept to be drawn
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    parser.add_argument("--bound", type=float, help="guaranteed energy error at which to end")
-    parser.add_argument("--element", choices=ELEMENT_NAMES, help="whose error; default P1")
-    parser.add_argument("--theta", type=float, help="share of the squared bound that is refined")
-    parser.add_argument("--start", type=int, help="level of the first mesh")
-    parser.add_argument("--max-dofs", type=int, help="beyond which no mesh is solved")
-    parser.add_argument("--max-seconds", type=float, help="after which no mesh is begun")
+    parser.add_argument(
+        "--bound", type=float, help="energy error at which to end; 0, the default: at the limits"
+    )
+    parser.add_argument("--element", choices=ELEMENT_NAMES, help="whose error; default: P1")
+    parser.add_argument(
+        "--theta", type=float, help="share of the squared bound that is refined; default: 0.5"
+    )
+    parser.add_argument(
+        "--start", type=int, help="level of the first mesh; default: the scene's coarsest"
+    )
+    parser.add_argument(
+        "--max-dofs", type=int, help="beyond which no mesh is solved; default: 200000"
+    )
+    parser.add_argument(
+        "--max-seconds", type=float, help="after which no mesh is begun; default: none"
+    )
     parser.add_argument("--uniform", action="store_true", help="refine every triangle, to compare")
     parser.add_argument(
         "--warm", action="store_true", help="solve the first mesh twice, before any clock starts"
     )
     parser.add_argument("--restart", action="store_true", help="forget what the folder holds")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FOLDER",
+        help="where to write, or to go on",
+    )
 
 
 def run(arguments):

@@ -9,7 +9,7 @@ example:
 """
 
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_output
+from signorini.commands.inputs import add_output, check_there
 from signorini.publication.check import check_publication
 from signorini.scene.read import check_points, read_scene
 from signorini.scene.validated import write_validated
@@ -23,6 +23,7 @@ def add_arguments(parser):
 
 def run(arguments):
     """Validate, and write the result where asked to."""
+    check_there(arguments.scene)
     scene = read_scene(arguments.scene)
     scene.check()
     check_points(scene)

@@ -1,5 +1,6 @@
 """Arguments that commands share: a scene, a domain, and where to write."""
 
+import os
 from functools import cache
 from pathlib import Path
 
@@ -23,6 +24,21 @@ def add_output(parser, what, required=True):
     )
 
 
+def check_there(path):
+    """Refuse the path of a scene where there is nothing; a scene's bare name gets its path.
+
+    Raises
+    ------
+    SceneError
+    """
+    if os.path.exists(path):
+        return
+    meant = Path("config/scenes", f"{path}.yaml")
+    listed = "`signorini scenes` lists the scenes"
+    remedy = f"did you mean {meant}?" if os.path.exists(meant) else listed
+    raise SceneError(f"{path}: there is no such file; {remedy}")
+
+
 @cache
 def scene_of(path):
     """The scene that an argument names.
@@ -44,8 +60,7 @@ def scene_of(path):
         from signorini.scene.validated import read_validated
 
         return read_validated(path)
-    if not path.is_file():
-        raise SceneError(f"{path}: there is no such file; `signorini scenes` lists the scenes")
+    check_there(path)
     from signorini.scene.read import load_scene
 
     return load_scene(path)

@@ -24,9 +24,7 @@ _MANUSCRIPT = "#   manuscript: ../../paper/mine.tex     # example; it becomes pa
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument("name", metavar="NAME", help="letters, digits, '-' and '_'")
-    parser.add_argument(
-        "--paper", action="store_true", help="with an article, ../../paper/NAME.tex"
-    )
+    parser.add_argument("--paper", action="store_true", help="with an article, paper/NAME.tex")
     parser.add_argument(
         "--folder",
         type=Path,

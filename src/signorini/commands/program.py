@@ -90,8 +90,16 @@ def _prepare():
         os.environ[name] = "1"
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that tells a mistake in one line, without the usage."""
+
+    def error(self, message):
+        remedy = f"{self.prog} --help explains the arguments"
+        self.exit(MISTAKE, f"error: {self.prog}: {message}; {remedy}\n")
+
+
 def _parser(command, module):
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog=f"signorini {command}",
         description=module.__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,

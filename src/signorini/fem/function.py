@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from signorini.exceptions import FormulaError
 from signorini.wording import cut
 
-# What a function raises where it is not written for arrays.
-_RAISED = (ArithmeticError, AttributeError, IndexError, NameError, TypeError, ValueError)
-
 
 @dataclass(frozen=True)
 class Function:
@@ -88,7 +85,7 @@ class Function:
         try:
             with np.errstate(all="ignore"):
                 return np.asarray(self.function(x, y))
-        except _RAISED as error:
+        except Exception as error:  # a function of a user raises anything
             raise FormulaError(
                 f"{self.field}: {self.text} fails for arrays x and y "
                 f"({type(error).__name__}: {cut(str(error))}); "

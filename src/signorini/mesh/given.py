@@ -14,8 +14,6 @@ from signorini.mesh.labels import NamedMesh, with_sides
 from signorini.mesh.parse import arrays_of, read_meshio
 from signorini.wording import cut
 
-_RAISED = (ArithmeticError, AttributeError, IndexError, NameError, TypeError, ValueError)
-
 
 def from_arrays(p, t, boundaries=None, subdomains=None):
     """A mesh from its vertices and triangles.
@@ -208,7 +206,7 @@ def _chosen(field, function, points, what):
     x, y = np.array(points)
     try:
         chosen = np.broadcast_to(np.asarray(function(x, y)) > 0, x.shape)
-    except _RAISED as error:
+    except Exception as error:  # a function of a user raises anything
         raise MeshError(
             f"{field}: the function fails for arrays x and y "
             f"({type(error).__name__}: {cut(str(error))}); write it with NumPy"

@@ -146,12 +146,18 @@ def _check_key(key, schema):
     for name in (first, *rest):
         if known is not None and name not in known:
             full = [f"{place}{other}" for other in known if other not in UNSWEPT]
+            full += [f"{place}{other}" for other in _within_sections(name, known, schema)]
             raise SceneError(
                 f"sweep.{key}: the scene has no such key; {nearest(f'{place}{name}', full)}"
             )
         part = (known or {}).get(name, {})
         known = _keys(part, schema) if part else None
         place += f"{name}."
+
+
+def _within_sections(name, known, schema):
+    """Keys of that name one section further down."""
+    return [f"{key}.{name}" for key, part in known.items() if name in (_keys(part, schema) or ())]
 
 
 def _keys(part, schema):

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from signorini.exceptions import SolverError
 from signorini.fem.discrete_problem import Problem
 from signorini.fem.mirror import mirrored, negated
 from signorini.work import count
@@ -148,6 +149,11 @@ def kkt_residual(problem, u):
         Dimensionless; infinite where u is not finite.
     multiplier : ndarray, shape (nc,)
 
+    Raises
+    ------
+    SolverError
+        If u has another shape.
+
     Examples
     --------
     Zero is no solution of the paper's problem:
@@ -160,6 +166,8 @@ def kkt_residual(problem, u):
     >>> kkt_residual(problem, np.zeros(problem.b.size))[0] > 1e-3
     True
     """
+    if np.shape(u) != problem.b.shape:
+        raise SolverError(f"u: shape {np.shape(u)} is not valid; give one of {problem.b.shape}")
     if problem.upper:
         residual, multiplier = kkt_residual(mirrored(problem), negated(u))
         return residual, negated(multiplier)

@@ -104,3 +104,32 @@ def test_a_table_of_a_study_is_no_wider_than_a_screen(page):
     wide = [row for row in rows if row.count("|") > 6]  # in others sentences break into lines
     assert max((row.count("|") - 1 for row in rows), default=0) <= 10
     assert max(map(len, wide), default=0) <= 130
+
+
+FENCED = re.compile(r"^```(python|yaml)\n(.*?)^```$", re.M | re.S)
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
+EXAMPLES = [
+    (f"{page.stem}-{k}", language, text)
+    for page in PAGES
+    for k, (language, text) in enumerate(FENCED.findall(page.read_text(encoding="utf-8")))
+]
+SCRIPTS = {name: text for name, language, text in EXAMPLES if language == "python"}
+SCENES = {name: text for name, language, text in EXAMPLES if language == "yaml"}
+
+
+@pytest.mark.parametrize("name", [name for name, text in SCRIPTS.items() if ">>>" not in text])
+def test_a_script_on_a_page_runs(name, monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    exec(compile(SCRIPTS[name], name, "exec"), {"__name__": name})
+    assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_keys_of_a_scene_on_a_page_are_known(name, made_blocks):
+    known = set(re.findall(r"^#{2,3} (.+)$", made_blocks.scene_keys(), re.M))
+    shown = yaml.safe_load(SCENES[name])
+    sections = {key: value for key, value in shown.items() if isinstance(value, dict)}
+    inner = {f"{key}.{part}" for key, value in sections.items() for part in value}
+    free = ("boundary.", "quantities.", "sweep.")  # whose keys are names or paths
+    assert shown.keys() <= known
+    assert {key for key in inner if not key.startswith(free)} <= known

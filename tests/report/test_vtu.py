@@ -22,6 +22,7 @@ MESHES = {
     "delaunay": delaunay(0, labels=HELD),
     "ring": ring(),
 }
+PATCH = "config/scenes/patch.yaml"
 LABELS = ("dirichlet", "contact", "neumann")
 
 
@@ -217,3 +218,22 @@ def test_a_mesh_that_is_not_the_solutions_is_refused(built, tmp_path, capsys, ol
 def test_files_that_cannot_be_written_are_refused(built, tmp_path, capsys, files, name, said):
     assert vtu(built, "mesh.npz", *files, output=tmp_path / name) == 1
     assert said in capsys.readouterr().err
+
+
+def test_certificates_come_back_and_a_patch_has_its_gradient(tmp_path):
+    """Of the patch test the solution is affine: m is its gradient, and nothing contributes."""
+    mesh, files = tmp_path / "mesh.npz", {}
+    assert main(["mesh", PATCH, "-o", str(mesh)]) == 0
+    for element in ("P1", "CR"):
+        files[element] = str(tmp_path / f"{element}.npz")
+        words = ["solve", PATCH, "--element", element, "--n", "8", "-o", files[element]]
+        assert main(words) == 0
+    level = str(tmp_path / "level.npz")
+    assert main(["certificate", PATCH, *files.values(), "--n", "8", "-o", level]) == 0
+    for element, file in files.items():
+        target = str(tmp_path / f"{element}.vtu")
+        assert main(["vtu", str(mesh), file, "--certificates", level, "-o", target]) == 0
+        data = meshio.read(target).cell_data_dict
+        middle, own = (data[name]["triangle"] for name in ("middle_gradient", "gradient"))
+        np.testing.assert_allclose(middle, own, atol=1e-12)
+        np.testing.assert_allclose(data["contribution"]["triangle"], 0.0, atol=1e-20)

@@ -151,6 +151,7 @@ rule vtu:
         scene=ancient(scene_file),
         mesh=mesh_file,
         solution=lambda wildcards: finest(wildcards, wildcards.element),
+        certificates=certificate_if_any,
     output:
         "results/{scene}/vtu/{element}.vtu",
     log:
@@ -160,9 +161,10 @@ rule vtu:
     params:
         content=content("vtu"),
         coefficient=coefficient,
+        certificates=certificate_option,
     shell:
         "python3 -m signorini vtu {input.mesh:q} {input.solution:q} --scene {input.scene:q}"
-        " -o {output:q} 2>&1 | tee {log:q}"
+        " {params.certificates} -o {output:q} 2>&1 | tee {log:q}"
 
 
 # All levels, for ParaView to play.
@@ -172,6 +174,7 @@ rule vtu_series:
         scene=ancient(scene_file),
         mesh=mesh_file,
         solutions=levels_of_element,
+        certificates=certificates_if_any,
     output:
         series="results/{scene}/vtu/{element}.pvd",
         files=directory("results/{scene}/vtu/{element}"),
@@ -182,6 +185,7 @@ rule vtu_series:
     params:
         content=content("vtu"),
         coefficient=coefficient,
+        certificates=certificate_option,
     shell:
         "python3 -m signorini vtu {input.mesh:q} {input.solutions:q} --scene {input.scene:q}"
-        " -o {output.series:q} 2>&1 | tee {log:q}"
+        " {params.certificates} -o {output.series:q} 2>&1 | tee {log:q}"

@@ -229,6 +229,21 @@ def certificate_files(wildcards):
     ]
 
 
+def certificates_if_any(wildcards):
+    return certificate_files(wildcards) if is_certified(scene(wildcards.scene).document) else []
+
+
+def certificate_if_any(wildcards):
+    """Of the finest level."""
+    return certificates_if_any(wildcards)[-1:]
+
+
+def certificate_option(wildcards, input):
+    """Option of the VTU files for certificates, where there are any."""
+    files = " ".join(quote(str(file)) for file in input.certificates)
+    return f"--certificates {files}" if files else ""
+
+
 def certifiable_scenes():
     """Every scene of which guaranteed bounds can be had: the triangles fill its body."""
     return [
@@ -259,8 +274,9 @@ def shown(wildcards):
 
 def viewer_tables(wildcards):
     """What the viewer tells beside the solutions."""
-    asked = scene(wildcards.scene).document["outputs"]
-    return ["results/{scene}/errors.csv"] * ("errors" in asked)
+    document = scene(wildcards.scene).document
+    asked = {"errors": "errors" in document["outputs"], "certificates": is_certified(document)}
+    return [f"results/{wildcards.scene}/{name}.csv" for name in asked if asked[name]]
 
 
 def figure_options(wildcards):

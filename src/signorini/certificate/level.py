@@ -53,6 +53,29 @@ class Level:
     corners: np.ndarray
     facets: np.ndarray
 
+    def of_triangles(self, element):
+        """What is certified of every triangle, for programs that draw triangles.
+
+        Parameters
+        ----------
+        element : {"P1", "CR"}
+            One of `elements`.
+
+        Returns
+        -------
+        dict
+            ``contribution`` (nt,), the part in the square of the upper bound; ``middle_gradient``
+            (nt, 3), the mean of m, its third component 0, unit of u per length.
+        """
+        mean = self.corners.mean(axis=0) + self.facets.sum(axis=0) / 12.0  # of lambda_i lambda_j
+        gradient = np.zeros((mean.shape[1], 3))
+        gradient[:, :2] = mean.T
+        own = self.elements.index(element)
+        return {
+            "contribution": self.numbers["contributions"][own],
+            "middle_gradient": gradient,
+        }
+
     def rows(self):
         """Rows of certificates.csv, a dict for each element."""
         return [self._row(k) for k in range(len(self.elements))]

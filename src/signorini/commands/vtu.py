@@ -1,7 +1,8 @@
 """Write solutions as VTU, which ParaView and meshio read: u, its gradient, boundary and contact.
 
 Several levels of one element become a series, FILE.pvd, with a file for each level in the folder
-FILE beside it. With --scene the coefficient is written, too.
+FILE beside it. With --scene the coefficient is written, too, and with --certificates what each
+triangle contributes to the bound of the error, and the mean of the guaranteed gradient.
 
 example:
   signorini vtu mesh.npz u.npz -o u.vtu
@@ -25,6 +26,13 @@ def add_arguments(parser):
     add_mesh(parser)
     parser.add_argument("solutions", metavar="SOLUTION", nargs="+", help="solutions, .npz")
     parser.add_argument("--scene", metavar="SCENE", type=Path, help="writes its coefficient")
+    parser.add_argument(
+        "--certificates",
+        metavar="FILE",
+        nargs="+",
+        default=[],
+        help="outputs of `signorini certificate`, by level as the solutions",
+    )
     add_output(parser, "the file: .vtu of one solution, .pvd of a series")
 
 
@@ -45,12 +53,14 @@ def run(arguments):
         raise SignoriniError(f"-o {path}: holds one solution; end it in .pvd for a series")
     domain = read_domain(arguments.mesh)
     scene = scene_of(arguments.scene) if arguments.scene else None
+    certificates = _certificates(arguments.certificates)
     files = {}
     for source in arguments.solutions:
         solution = read_solution(source)
         target = _target(path, solution, files)
         mesh = mesh_of(domain, solution)
-        write_vtu(target, mesh, solution, _coefficient(scene, mesh))
+        more = _coefficient(scene, mesh) | _certified(certificates, solution, mesh)
+        write_vtu(target, mesh, solution, more)
         files[solution.element, solution.n] = target
     if path.suffix == ".pvd":
         levels = {n: f"{path.stem}/{target.name}" for (_, n), target in files.items()}
@@ -80,3 +90,28 @@ def _coefficient(scene, mesh):
 
     given = coefficient_on(mesh, read_coefficient(scene.document["data"]["coefficient"]))
     return {"coefficient": np.ones(mesh.number_of_triangles) if given is None else given}
+
+
+def _certificates(paths):
+    """Level -> its certificates."""
+    if not paths:
+        return {}
+    from signorini.certificate.level import read_level
+
+    levels = map(read_level, paths)
+    return {level.n: level for level in levels}
+
+
+def _certified(certificates, solution, mesh):
+    """What a certificate says of every triangle, where there is one of this level and element."""
+    level = certificates.get(solution.n)
+    if level is None or solution.element not in level.elements:
+        return {}
+    found = level.of_triangles(solution.element)
+    if len(found["contribution"]) != mesh.number_of_triangles:
+        raise SignoriniError(
+            f"--certificates: that of n = {solution.n} is of a mesh with "
+            f"{len(found['contribution'])} triangles, the solution of one with "
+            f"{mesh.number_of_triangles}; give those of its scene"
+        )
+    return found

@@ -21,7 +21,7 @@ RULES = {
 COMPUTING = re.compile(
     r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers"
     r"|errors\.measure|report\.field|certificate\.level"
-    r"|open_choices\.\w+|studies\.sensitivity\.errors|studies\.theory\.estimates)"
+    r"|open_choices\.\w+|studies\.sensitivity\.(?:errors|digits)|studies\.theory\.estimates)"
     r" import (?!count_solves|read_level|[A-Z]+\b)",
     re.M,
 )

@@ -13,7 +13,7 @@ FLOORS = (
     *("judge", "generated", "rivals", "open_choices"),
     *("report", "sweeps", "publication", "figures", "api"),
     *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability"),
-    *("studies.theory", "studies.adaptive"),
+    *("studies.theory", "studies.adaptive", "studies.guaranteed"),
     *("commands", "__main__"),
 )
 

@@ -42,3 +42,30 @@ rule certificate_table:
     shell:
         "python3 -m signorini certificates {input.scene:q} {input.levels:q} -o {output.csv:q}"
         " --tex {output.tex:q} --markdown {output.markdown:q} 2>&1 | tee {log:q}"
+
+
+# The errors of the scene that is studied, and those that were published, between the bounds of one fine mesh.
+GUARANTEED = f"{STUDIES}/guaranteed"
+
+
+rule guaranteed:
+    input:
+        library("guaranteed"),
+        scene=ancient(studied_scene),
+        solutions=lambda wildcards: solutions(studied()),
+        published=studied_published,
+    output:
+        tex=f"{GUARANTEED}/guaranteed.tex",
+        markdown=f"{GUARANTEED}/guaranteed.md",
+        csv=f"{GUARANTEED}/guaranteed.csv",
+    log:
+        f"{GUARANTEED}/logs/page.log",
+    params:
+        content=content("guaranteed", studied_published),
+        statement=studied_statement,
+        fine=128 if QUICK else 1024,
+        quick=QUICK_OPTION,
+        folder=subpath(output[0], parent=True),
+    shell:
+        "python3 -m signorini guaranteed {input.scene:q} {input.solutions:q} --fine {params.fine}"
+        " --published {input.published:q} {params.quick} -o {params.folder:q} 2>&1 | tee {log:q}"

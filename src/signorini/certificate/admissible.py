@@ -21,6 +21,8 @@ class Admissible:
     above : ndarray, shape (2, m)
         v - alpha at the ends of the contact facets, not negative; v + w - alpha is affine between
         where w is not zero.
+    dip : ndarray, shape (m,)
+        How far it may be below the affine function where w is zero.
     bubbles : ndarray, shape (nf,)
         The quadratic part of w, as factors of bubbles.
     lift, rest : ndarray, shape (nt,)
@@ -33,6 +35,7 @@ class Admissible:
 
     vertices: np.ndarray
     above: np.ndarray
+    dip: np.ndarray
     bubbles: np.ndarray
     lift: np.ndarray
     rest: np.ndarray
@@ -74,14 +77,17 @@ def make_admissible(topology, data, u, equilibrium):
     lifts = _Lifts(topology)
     for chosen, datum in given_on(topology, dirichlet, data.dirichlet):
         lifts.add(dirichlet.only(chosen), datum)
-    presses = equilibrium.force != 0.0
+    presses, dip = equilibrium.force != 0.0, np.zeros(contact.facets.size)
     for chosen, datum in given_on(topology, contact, data.obstacle):
         own = contact.only(chosen)
-        needed = _needs_lift(own, datum, above[:, chosen], presses[chosen])
+        curved = _deviation(own, datum)
+        needed = _needs_lift(curved, above[:, chosen], presses[chosen])
+        dip[chosen] = np.where(needed, 0.0, curved)
         lifts.add(own.only(needed), datum)
     return Admissible(
         vertices=vertices,
         above=above,
+        dip=dip,
         bubbles=lifts.bubbles,
         lift=lifts.whole,
         rest=lifts.rest,
@@ -94,12 +100,16 @@ _SAMPLES = np.linspace(0.0, 1.0, 17)
 _MARGIN = 2.0  # of the largest sampled deviation of the obstacle from affine
 
 
-def _needs_lift(contact, obstacle, above, presses):
-    """Contact facets on which v may dip below a curved obstacle, or the flux presses."""
+def _deviation(contact, obstacle):
+    """How far an obstacle is from affine on each facet, as far as samples show, (m,)."""
     if obstacle.constant is not None or not contact.facets.size:
-        return np.zeros(contact.facets.size, dtype=bool)
-    curved = np.abs(_beyond_affine(contact, obstacle, _SAMPLES)).max(axis=1)
-    return presses | (above.min(axis=0) < _MARGIN * curved)
+        return np.zeros(contact.facets.size)
+    return np.abs(_beyond_affine(contact, obstacle, _SAMPLES)).max(axis=1)
+
+
+def _needs_lift(curved, above, presses):
+    """Contact facets on which v may dip below a curved obstacle, or the flux presses."""
+    return (curved > 0.0) & (presses | (above.min(axis=0) < _MARGIN * curved))
 
 
 def _beyond_affine(trace, datum, s):

@@ -50,6 +50,7 @@ CATALOGUE = {
         "surface": "sample a solution for a surface plot",
         "draw-surface": "draw a surface plot",
         "draw-convergence": "draw errors against mesh width",
+        "guaranteed": "hold published errors against guaranteed bounds",
         "effects": "change, one at a time, the options that the paper leaves open",
         "macros": "write every number of the text as a LaTeX macro",
         "typeset": "typeset a manuscript with its tables and figures",

@@ -171,14 +171,18 @@ def _rows(
     rows: list[dict[str, Any]] = []
     measure: Callable[..., dict[str, Any]] | None = None
     for n in levels:
-        problems = problem_of_level(n)
-        several = isinstance(problems, Iterable) and not isinstance(problems, Problem)
-        for problem in problems if several else [problems]:
+        for problem in _several(problem_of_level(n)):
             solution = solve(_of_level(problem, n))
             measure = measure or measure_of(truth, solution, norms)
             rows.append(row(solution._stored, lambda _, s=solution, m=measure: m(s)))
     first = {entry["element"]: k for k, entry in reversed(list(enumerate(rows)))}
     return sorted(rows, key=lambda entry: first[entry["element"]])
+
+
+def _several(problems: Any) -> Iterable[Any]:
+    """What a function of a program returned, one problem or several, as several."""
+    alone = isinstance(problems, Problem) or not isinstance(problems, Iterable)
+    return [problems] if alone else problems
 
 
 def _of_level(problem: Any, n: int) -> Problem:

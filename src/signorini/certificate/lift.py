@@ -66,7 +66,8 @@ def lift(trace, remainder, field, size):
         x, y = trace.middle[:, np.argmax(diverges)]
         raise SceneError(
             f"{field}: has no square integrable derivative along the facet at ({x:.6g}, {y:.6g}), "
-            "so that nothing lifts it; smooth it there"
+            "as far as quadrature can tell, so that nothing lifts it; smooth it there, or put a "
+            "vertex where it has a kink"
         )
     ratio = np.minimum(last / np.maximum(before, np.finfo(float).tiny), _DIVERGES)
     left = last * np.maximum(ratio / (1.0 - ratio), 1.0)  # what finer panels would add

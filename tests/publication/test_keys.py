@@ -4,10 +4,12 @@ import pytest
 from articles import SCENE
 
 from signorini.commands.program import main
-from signorini.publication.keys import declared_keys, nearest_key, table_of, tidy
+from signorini.publication.keys import BOUNDS, declared_keys, nearest_key, table_of, tidy
 from signorini.publication.made import published_of
 from signorini.publication.numbers import error_numbers, read_numbers
 from signorini.scene.read import read_scene
+from signorini.scene.scene import Scene
+from signorini.storage import write_csv
 
 TABLES = ("scene", "errors", "rates", "contact_line", "check", "effects", "surface")
 SCENES = {
@@ -125,3 +127,35 @@ def test_the_hint_names_the_nearest_and_where_all_are():
         "did you mean {slope, l2, CR}? `signorini macros SCENE` lists all"
     )
     assert nearest_key("?", ["l2, CR, 4"]) == "`signorini macros SCENE` lists all"
+
+
+@pytest.mark.parametrize("truth", [{"kind": "exact", "family": "corner"}, {"kind": "certificate"}])
+def test_guaranteed_bounds_have_keys(tmp_path, truth):
+    """Every declared key of certificates.csv is found, where the column is filled."""
+    known = truth["kind"] == "exact"
+    data = {} if known else {"f": "1"}
+    scene = Scene.from_dict(
+        {
+            "domain": {"kind": "rectangle"},
+            "boundary": {"bottom": "contact"}
+            | dict.fromkeys(("top", "left", "right"), "dirichlet"),
+            "data": data,
+            "levels": [4, 8],
+            "truth": truth,
+            "certificate": True,
+        }
+    )
+    empty = () if known else ("error", "effectivity", "lower_ratio")
+    rows = [
+        {"element": element, "n": n}
+        | {name: None if name in empty else f"{n}.{k}" for k, name in enumerate(BOUNDS)}
+        for element in ("P1", "CR")
+        for n in (4, 8)
+    ]
+    write_csv(tmp_path / "certificates.csv", rows)
+    found = read_numbers(scene, tmp_path, ["certificates"])
+    tables = declared_keys(scene.document)
+    declared = [key for key, table in tables.items() if table == "certificates"]
+    assert sorted(found) == sorted(declared)
+    assert found["certificate, upper, CR, 8"] == found["certificate, upper, CR, finest"] == "8.0"
+    assert found["certificate, lower, P1, coarsest"] == "4.1"

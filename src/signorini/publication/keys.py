@@ -9,6 +9,7 @@ import difflib
 
 from signorini.errors.rates import KINDS
 from signorini.mesh.boundary import labels_of
+from signorini.scene.checks import is_certified
 from signorini.scene.table import computed_norms
 from signorini.wording import cut
 
@@ -20,6 +21,12 @@ COARSEST, FINEST = ENDS = ("coarsest", "finest")  # levels by another name
 FACTS = ("h", "dofs", "residual", "accuracy", "multiplier_accuracy", "undecided", "iterations")
 LINE = ("component", "s", "x", "y", "u", "obstacle", "flux", "binding")  # of contact_line.csv
 THRESHOLD = "threshold"  # a column where data.contact_flux is not 0
+CERTIFICATE = "certificate"
+# Columns of certificates.csv.
+BOUNDS = (
+    *("upper", "lower", "l2", "oscillation", "contact", "gap", "primal", "dual", "steps", "radius"),
+    *("error", "effectivity", "lower_ratio"),
+)
 SUMMARY = ("total", "matched", "exact", "largest")  # of check.csv
 # Options of the discretisation; see `open_choices.effects`.
 CHOICES = ("diagonal", "load", "norm", "quadrature")
@@ -33,6 +40,7 @@ FILES = {
     "outputs": "outputs.csv",
     "check": "check.csv",
     "effects": "effects.csv",
+    "certificates": "certificates.csv",
     "surface": "surface.npz",
     "contact_line": "contact_line.csv",  # last, for it is long
 }
@@ -80,6 +88,8 @@ def declared_keys(document, published=()):
         found |= dict.fromkeys(_error_keys(document), "errors")
         found |= dict.fromkeys(_rate_keys(document), "rates")
     found |= dict.fromkeys(_quantity_keys(document), "outputs")
+    if is_certified(document):
+        found |= dict.fromkeys(_certificate_keys(document), "certificates")
     if "contact" in labels_of(document["boundary"]):
         found |= dict.fromkeys(_line_keys(document), "contact_line")
     if published:
@@ -137,6 +147,14 @@ def _quantity_keys(document):
         solutions.append((truth["element"], truth["n"]))
     for name in document["quantities"]:
         yield from (key_of(QUANTITY, name, *solution) for solution in solutions)
+
+
+def _certificate_keys(document):
+    known = document["truth"]["kind"] == "exact"
+    names = BOUNDS if known else BOUNDS[: BOUNDS.index("error")]
+    for element in document["elements"]:
+        for n in (*document["levels"], *ENDS):
+            yield from (key_of(CERTIFICATE, name, element, n) for name in names)
 
 
 def _line_keys(document):

@@ -6,6 +6,8 @@ from pathlib import Path
 from signorini.errors.rates import rate_between
 from signorini.publication.compare import check_summary
 from signorini.publication.keys import (
+    BOUNDS,
+    CERTIFICATE,
     CHOICES,
     COARSEST,
     DEVIATION,
@@ -136,6 +138,17 @@ def _of_outputs(scene, path):
     return found
 
 
+def _of_certificates(scene, path):
+    found = {}
+    every = {"element": scene.elements, "n": list(map(str, scene.levels))}
+    ends = {str(scene.levels[0]): COARSEST, str(scene.levels[-1]): FINEST}
+    for row in read_csv(path, every=every):
+        for n in filter(None, (row["n"], ends.get(row["n"]))):
+            words = row["element"], n
+            found |= {key_of(CERTIFICATE, name, *words): row[name] for name in BOUNDS}
+    return found
+
+
 def _of_line(scene, path):
     found = {}
     rows = read_csv(path)
@@ -194,5 +207,6 @@ _READERS = {
     "contact_line": _of_line,
     "check": _of_check,
     "effects": _of_effects,
+    "certificates": _of_certificates,
     "surface": _of_surface,
 }

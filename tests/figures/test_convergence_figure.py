@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from drawn import FIGURES, legend, published_errors
+from drawn import FIGURES, legend, pixels, published_errors
 from signorini.figures.convergence import draw_convergence
 from signorini.figures.style import save_figure
 
@@ -30,6 +30,66 @@ def test_triangle_has_the_slope_it_says(norm, order):
     (left, low), (right, _), (_, high), _ = axes.lines[-1].get_xydata()
     assert log(high / low) / log(right / left) == pytest.approx(order)
     assert [text.get_text() for text in axes.texts] == ["$1$", f"${order}$"]
+
+
+FITTED = {
+    "narrow": [(n, 0.3 / n) for n in (8, 16)],
+    "wide": [(2**k, 7.0**-k) for k in range(1, 10)],
+    "bent": [(4, 0.5), (8, 0.01), (16, 0.009), (32, 0.001)],
+    "one": [(8, 0.02)],
+}
+
+
+def fitted(name, slopes):
+    errors = [
+        {"element": element, "n": n, "h": 1 / n, "l2": factor * error}
+        for element, factor in (("P1", 1.0), ("CR", 2.0))
+        for n, error in FITTED[name]
+    ]
+    return draw_convergence(errors, "l2", slopes, fitted=True)
+
+
+@pytest.mark.parametrize("name", FITTED)
+def test_fitted_axes_hold_all_and_nothing_covers_a_curve(name):
+    figure = fitted(name, {"P1": 1.9, "CR": 2.0})
+    (axes,) = figure.axes
+    pixels(figure)
+    box = axes.get_window_extent()
+    legend_box = axes.get_legend().get_window_extent()
+    assert legend_box.y0 >= box.y1 - 1
+    assert legend_box.y1 <= figure.bbox.y1
+    assert all(box.contains(*place) for text in axes.texts for place in corners(text))
+    p1, _, *triangle = axes.lines
+    for line in axes.lines:
+        assert all(box.contains(*axes.transData.transform(point)) for point in line.get_xydata())
+    low, high = axes.get_ylim()
+    powers = [k for k in range(-20, 5) if low <= 10.0**k <= high]
+    assert len(powers) >= 2
+    for shape in triangle:
+        (left, bottom), _, (right, top), _ = shape.get_xydata()
+        assert log(top / bottom) / log(right / left) == pytest.approx(2)
+        for h, error in p1.get_xydata():
+            if left <= h <= right:
+                assert bottom * (h / left) ** 2 < 0.7 * error
+
+
+def corners(text):
+    box = text.get_window_extent()
+    return [(box.x0, box.y0), (box.x1, box.y1)] if text.get_text() == "$1$" else []
+
+
+@pytest.mark.parametrize(
+    ("slopes", "shown"),
+    [
+        ({"P1": 1.52, "CR": "1.47"}, ["$1$", "$3/2$"]),
+        ({"P1": 1.5, "CR": 0.4}, []),
+        ({"P1": 0.1, "CR": 0.2}, []),
+        (None, []),
+    ],
+)
+def test_the_triangle_is_of_the_rate_that_the_slopes_show(slopes, shown):
+    (axes,) = fitted("wide", slopes).axes
+    assert [text.get_text() for text in axes.texts] == shown
 
 
 def test_lines_differ_in_more_than_colour():

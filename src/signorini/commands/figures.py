@@ -62,4 +62,5 @@ def _convergence(scene, errors, rates):
     errors = read_errors(errors, sections)
     rates = read_rates(rates, sections, numbers=("slope",))
     kind = scene.document["slope"]
-    return {norm: draw_convergence(errors, norm, slopes_of(rates, norm, kind)) for norm in norms}
+    slopes = {norm: slopes_of(rates, norm, kind) for norm in norms}
+    return {norm: draw_convergence(errors, norm, slopes[norm], fitted=True) for norm in norms}

@@ -1,4 +1,4 @@
-"""Figures 5.2 and 5.3: the error of each element against the mesh width."""
+"""The error of each element against the mesh width, as in Figures 5.2 and 5.3 or fitted to data."""
 
 import math
 
@@ -7,16 +7,21 @@ import matplotlib
 from signorini.errors.norms import NORMS
 from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.figures.elements import elements_in
-from signorini.figures.style import ELEMENT_STYLES, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.figures.rate import draw_triangle, order_of, triangle_below
+from signorini.figures.style import ELEMENT_STYLES, STYLE, TEXT_WIDTH, new_figure
 
-ORDERS = {"l2": 2}  # of the theory, and of the slope triangle; of any other norm 1
+ORDERS = {"l2": 2}  # of the theory, and of the paper's slope triangle; of any other norm 1
+PAPER_AXES = (0.205, 0.16, 0.775, 0.805)  # the legend is within them
+FITTED_AXES = (0.205, 0.16, 0.755, 0.665)  # the legend is above them
+DIGIT = 0.06  # room for a digit below a triangle, in lengths of the axis
+MARGIN = 0.08  # around the data of a fitted figure, in lengths of their range
 MOST_TICKS = 7
 SHORT = 6  # letters of a tick label; of longer ones there is room for half as many
 TRIANGLE_GAP = 0.12  # between the lowest curve and the triangle, in heights of the axes
 
 
 @matplotlib.rc_context(STYLE)
-def draw_convergence(errors, norm, slopes=None):
+def draw_convergence(errors, norm, slopes=None, fitted=False):
     """Draw the errors of every element in `errors` against h, both axes logarithmic.
 
     Parameters
@@ -27,6 +32,10 @@ def draw_convergence(errors, norm, slopes=None):
         A column of `errors`; one that is not in `errors.norms.NORMS` goes by its own name.
     slopes : mapping of str to float, optional
         The average slope of each element, named in the legend.
+    fitted : bool, optional
+        Whether the axes are as long as the data are, with the legend above them and a triangle of
+        the rate that the slopes show; else all is as in the paper: whole decades, and a triangle of
+        the theory's order.
 
     Returns
     -------
@@ -50,17 +59,22 @@ def draw_convergence(errors, norm, slopes=None):
     points = _points(errors, norm)
     elements = elements_in(points)
     figure = new_figure(0.49 * TEXT_WIDTH, 0.43 * TEXT_WIDTH)
-    axes = figure.add_axes((0.205, 0.16, 0.775, 0.805), xscale="log", yscale="log")
+    place = FITTED_AXES if fitted else PAPER_AXES
+    axes = figure.add_axes(place, xscale="log", yscale="log")
     for element in elements:
         own = [point for point in points if point["element"] == element]
         h, error = [point["h"] for point in own], [point["error"] for point in own]
         axes.plot(h, error, label=_label(element, slopes), **ELEMENT_STYLES[element])
-    _set_limits(axes, points)
     label_levels(axes, {point["n"]: point["h"] for point in points})
-    _draw_triangle(axes, _lowest_errors(points), ORDERS.get(norm, 1))
+    if fitted:
+        _fit(axes, points, order_of((slopes or {}).values()))
+    else:
+        _set_limits(axes, points)
+        _draw_triangle(axes, _lowest_errors(points), ORDERS.get(norm, 1))
     title = NORMS[norm].axis if norm in NORMS else norm.replace("_", " ")
     axes.set(xlabel="mesh width $h$", ylabel=title)
-    axes.legend(loc="upper left", handlelength=2.6, borderaxespad=0.2)
+    options = {"loc": "lower left", "bbox_to_anchor": (0, 1)} if fitted else {"loc": "upper left"}
+    axes.legend(handlelength=2.6, borderaxespad=0.2, **options)
     return figure
 
 
@@ -85,6 +99,56 @@ def _label(element, slopes):
     """The name of an element, with its slope if there is one."""
     name, slope = ELEMENT_FACTS[element].label, (slopes or {}).get(element)
     return name if slope in (None, "") else f"{name}, slope {float(slope):.2f}"
+
+
+def _fit(axes, points, order):
+    """Let the axes run over the data and the triangle, which is below all of them."""
+    positive = [point for point in points if point["error"] > 0]
+    if not positive:
+        return
+    triangle = triangle_below(_lowest_errors(positive), order) if order else None
+    heights = [point["error"] for point in positive]
+    if triangle:
+        bottom = triangle[1][0]
+        heights.append(bottom * (bottom / max(heights)) ** DIGIT)
+    axes.set_xlim(*_around([point["h"] for point in positive]))
+    axes.set_ylim(*with_two_decades(*_around(heights)))
+    if triangle:
+        draw_triangle(axes, *triangle, order)
+
+
+def _around(values):
+    """Limits of a logarithmic axis, with some room on both sides."""
+    low, high = math.log10(min(values)), math.log10(max(values))
+    room = MARGIN * (high - low) or 0.5
+    return 10.0 ** (low - room), 10.0 ** (high + room)
+
+
+def with_two_decades(low, high):
+    """Limits that have two powers of ten between them, so that two ticks have numbers.
+
+    Parameters
+    ----------
+    low, high : float
+        Positive.
+
+    Returns
+    -------
+    low, high : float
+        The same, or further apart on the side where less is missing.
+
+    Examples
+    --------
+    >>> with_two_decades(0.02, 0.5), with_two_decades(0.05, 20.0)
+    ((0.02, 1.0), (0.05, 20.0))
+    """
+    first, last = math.ceil(math.log10(low)), math.floor(math.log10(high))
+    if last > first:
+        return low, high
+    below, above = 10.0 ** (last if last < first else first - 1), 10.0 ** (last + 1)
+    if low / below < above / high:
+        return with_two_decades(below, high)
+    return with_two_decades(low, above)
 
 
 def _set_limits(axes, points):
@@ -142,9 +206,4 @@ def _draw_triangle(axes, lowest, order):
     low, high = axes.get_ylim()
     bottom = lowest[left] * (low / high) ** TRIANGLE_GAP  # a fixed distance on the page
     top = bottom * (right / left) ** order
-    axes.plot([left, right, right, left], [bottom, bottom, top, bottom], color=GREY, linewidth=0.7)
-    style = {"textcoords": "offset points", "fontsize": 8, "color": GREY}
-    middle = math.sqrt(left * right)
-    axes.annotate("$1$", (middle, bottom), (0, -3), ha="center", va="top", **style)
-    middle = math.sqrt(bottom * top)
-    axes.annotate(f"${order}$", (right, middle), (3, 0), va="center", **style)
+    draw_triangle(axes, (left, right), (bottom, top), order)

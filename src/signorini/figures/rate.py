@@ -1,0 +1,81 @@
+"""The slope triangle of a convergence plot: of which order, where, and drawn."""
+
+import math
+from fractions import Fraction
+
+from signorini.figures.style import GREY
+
+GAP = 1.6  # the least factor between the lowest curve and the triangle
+AGREED = 0.6  # how far slopes may be apart to show one rate
+
+
+def order_of(slopes):
+    """The rate that slopes show, to the nearest half.
+
+    Parameters
+    ----------
+    slopes : iterable of float or str
+
+    Returns
+    -------
+    float
+        0 where they show none: they are apart, or hardly above zero.
+
+    Examples
+    --------
+    >>> order_of([1.97, 1.99]), order_of([1.42, "1.6"]), order_of([1.53, 0.47])
+    (2.0, 1.5, 0.0)
+    """
+    found = [float(slope) for slope in slopes if slope not in (None, "")]
+    if not found or max(found) - min(found) > AGREED:
+        return 0.0
+    return max(round(2 * sum(found) / len(found)) / 2, 0.0)
+
+
+def triangle_below(lowest, order):
+    """Where a triangle of an order is below a curve, over two of its steps at most.
+
+    Parameters
+    ----------
+    lowest : mapping of float to float
+        Mesh width -> the least error there, both positive.
+    order : float
+
+    Returns
+    -------
+    (left, right), (bottom, top) : pairs of float
+        Or None where there are fewer than two mesh widths.
+
+    Examples
+    --------
+    >>> (left, right), (bottom, top) = triangle_below({0.25: 0.1, 0.5: 0.4, 1.0: 1.0}, 2.0)
+    >>> left, right, round(top / bottom, 12), bottom < 1.0 / 16
+    (0.25, 1.0, 16.0, True)
+    """
+    widths = sorted(lowest)
+    if len(widths) < 2:
+        return None
+    first = (len(widths) - 1) // 3
+    within = widths[first : first + 3]
+    left, right = within[0], within[-1]
+    bottom = min(lowest[h] * (left / h) ** order for h in within) / GAP
+    return (left, right), (bottom, bottom * (right / left) ** order)
+
+
+def draw_triangle(axes, along, up, order):
+    """Draw a triangle with its two numbers.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    along, up : (float, float)
+        What `triangle_below` returns.
+    order : float
+    """
+    (left, right), (bottom, top) = along, up
+    axes.plot([left, right, right, left], [bottom, bottom, top, bottom], color=GREY, linewidth=0.7)
+    style = {"textcoords": "offset points", "fontsize": 8, "color": GREY}
+    middle = math.sqrt(left * right)
+    axes.annotate("$1$", (middle, bottom), (0, -3), ha="center", va="top", **style)
+    place = (right, math.sqrt(bottom * top))
+    axes.annotate(f"${Fraction(order)}$", place, (3, 0), va="center", **style)

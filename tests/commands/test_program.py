@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import os
 import re
 import subprocess
 import sys
@@ -126,6 +127,18 @@ def test_a_group_lists_its_parts(capsys):
 
 def test_the_version(capsys):
     assert call(capsys, "--version") == (0, "signorini 0.2.0\n", "")
+
+
+@pytest.mark.parametrize("words", [["--help"], ["sweep", "--help"], ["scenes"]])
+def test_a_reader_that_has_gone_is_no_mistake(words):
+    """As `head` is, once it has its lines; here it leaves before the first."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-m", "signorini", *words]
+    asked = {"stdout": writer, "stderr": subprocess.PIPE, "cwd": ROOT, "env": {"PYTHONPATH": "src"}}
+    done = subprocess.run(command, **asked)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (0, b"")
 
 
 def test_python_runs_it_as_a_module():

@@ -31,7 +31,7 @@ def main(words=None):
     """
     words = list(sys.argv[1:] if words is None else words)
     if not words or words[0] in ("-h", "--help", "help"):
-        print(overview())
+        _print(overview())
         return 0 if words else MISTAKE
     if words[0] == "--version":
         from signorini import __version__
@@ -72,7 +72,7 @@ def _split(words):
     parts = [name for name in known if name.startswith(f"{words[0]} ")]
     if parts and (len(words) == 1 or words[1] in ("-h", "--help")):
         told = "\n".join(f"  {name:<{max(map(len, parts))}}  {known[name]}" for name in parts)
-        print(f"usage: signorini {words[0]} PART ...\n\n{told}")
+        _print(f"usage: signorini {words[0]} PART ...\n\n{told}")
         sys.exit(0 if len(words) > 1 else MISTAKE)
     wrong = " ".join(words[:2]) if parts else words[0]
     print(f"error: signorini {wrong}: no such command; {nearest(wrong, known)}", file=sys.stderr)
@@ -92,6 +92,9 @@ def _prepare():
 
 class _Parser(argparse.ArgumentParser):
     """A parser that tells a mistake in one line, without the usage."""
+
+    def print_help(self, file=None):
+        _print(self.format_help().rstrip("\n"))
 
     def error(self, message):
         remedy = f"{self.prog} --help explains the arguments"
@@ -128,18 +131,21 @@ def _run(module, arguments):
         print("error: interrupted; nothing was left half written", file=sys.stderr)
         return INTERRUPTED
     gc.freeze()
-    try:
-        _tell(outcome, arguments.json, time.perf_counter() - start)
-    except BrokenPipeError:  # the reader, perhaps `head`, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    _print(_told(outcome, arguments.json, time.perf_counter() - start))
     return 0
 
 
-def _tell(outcome, as_json, seconds):
+def _told(outcome, as_json, seconds):
     if as_json:
-        print(json.dumps({"text": outcome.text} if outcome.data is None else outcome.data))
-    elif "\n" in outcome.text:
-        print(outcome.text.rstrip("\n"))
-    else:
-        print(f"{outcome.text} ({seconds:.2f} s)")
-    sys.stdout.flush()
+        return json.dumps({"text": outcome.text} if outcome.data is None else outcome.data)
+    if "\n" in outcome.text:
+        return outcome.text.rstrip("\n")
+    return f"{outcome.text} ({seconds:.2f} s)"
+
+
+def _print(text):
+    """Print; a reader that has seen enough, perhaps `head`, is no mistake."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -26,7 +26,7 @@ def test_contact_line_shows_the_finest_level():
         "obstacle",
         "critical point",
     ]
-    upper, lower = figure.axes
+    upper, _, lower = figure.axes
     for axes, column in ((upper, "u"), (lower, "flux")):
         x, y = next(artist for artist in axes.lines if len(artist.get_xdata()) == 17).get_data()
         rows = [row for row in sloping_rows(n=16) if row["element"] == "P1"]
@@ -60,7 +60,7 @@ def test_contact_line_of_any_size(scale):
     rows = sloping_rows(size=(scale, scale), height=1e-200)
     figure = draw_contact_line(rows)
     pixels(figure)
-    assert f"[$10^{{{round(np.log10(scale))}}}$]" in figure.axes[1].get_xlabel()
+    assert f"[$10^{{{round(np.log10(scale))}}}$]" in figure.axes[-1].get_xlabel()
     assert "[$10^{-201}$]" in figure.axes[0].get_title(loc="left")
 
 
@@ -81,9 +81,57 @@ def test_the_threshold_is_drawn_below_where_there_is_one():
     figure = draw_contact_line(rows)
     assert "threshold" in legend(figure)
     assert "threshold" not in legend(draw_contact_line(sloping_rows()))
-    line = next(line for line in figure.axes[1].lines if line.get_label() == "threshold")
+    line = next(line for line in figure.axes[-1].lines if line.get_label() == "threshold")
     x, y = line.get_data()
     own = [row for row in rows if row["element"] == rows[0]["element"]]
     np.testing.assert_allclose(x, [row["s"] for row in own])
     unit = y[-1] / own[-1]["threshold"]
     np.testing.assert_allclose(y, [unit * row["threshold"] for row in own])
+
+
+def difference_lines(rows):
+    _, middle, _ = draw_contact_line(rows).axes
+    return middle, [line for line in middle.lines if len(line.get_xdata()) > 2]
+
+
+def test_cr_is_drawn_against_p1_where_the_one_would_hide_the_other():
+    rows = [row | {"u": row["u"] + 1e-7 * (row["element"] == "CR")} for row in sloping_rows(turn=2)]
+    middle, (line,) = difference_lines(rows)
+    assert "u_\\mathrm{CR} - u_\\mathrm{P1}" in middle.get_title(loc="left")
+    assert "10^{-9}" in middle.get_title(loc="left")
+    np.testing.assert_allclose(line.get_ydata(), 100.0, rtol=1e-6)
+
+
+def test_both_are_drawn_against_the_exact_solution_where_there_is_one():
+    shifts = {"P1": 0.5, "CR": -0.25}
+    rows = [row | {"exact": row["u"] - shifts[row["element"]]} for row in sloping_rows()]
+    middle, lines = difference_lines(rows)
+    assert middle.get_title(loc="left") == "$u_h - u$"
+    for line, shift in zip(lines, shifts.values(), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), shift, rtol=1e-12)
+
+
+def test_one_element_alone_has_nothing_to_be_compared_with():
+    rows = [row for row in sloping_rows() if row["element"] == "CR"]
+    assert len(draw_contact_line(rows).axes) == 2
+
+
+def test_many_neighbouring_critical_points_are_one_interval():
+    rows = sloping_rows(n=32)
+    for k, row in enumerate(rows):
+        row["critical"] = row["s"] + 1 / 64 if 5 < k < 15 and row["element"] == "P1" else None
+    figure = draw_contact_line(rows)
+    assert "contact by turns" in legend(figure)
+    assert "critical point" not in legend(figure)
+    for axes in figure.axes:
+        (band,) = axes.patches
+        assert (band.get_x(), band.get_width()) == pytest.approx((6.5 / 32, 8 / 32))
+
+
+@pytest.mark.parametrize("height", [1e-4, 0.00123456, 1.0])
+def test_no_tick_label_is_cut_off(height):
+    figure = draw_contact_line(sloping_rows(height=height))
+    pixels(figure)
+    labels = [text for axes in figure.axes for text in axes.get_yticklabels() if text.get_text()]
+    assert labels
+    assert min(text.get_window_extent().x0 for text in labels) >= 0

@@ -58,6 +58,7 @@ rule field:
 rule contact_line:
     input:
         library("contact-line"),
+        scene=ancient(scene_file),
         mesh=mesh_file,
         solutions=finest_of_each,
     output:
@@ -68,9 +69,11 @@ rule contact_line:
         "results/{scene}/benchmarks/contact_line.tsv"
     params:
         content=content("contact-line"),
+        truth=exact_statement,
+        exact=exact_option,
     shell:
-        "python3 -m signorini contact-line {input.mesh:q} {input.solutions:q} -o {output:q}"
-        " 2>&1 | tee {log:q}"
+        "python3 -m signorini contact-line {input.mesh:q} {input.solutions:q} {params.exact}"
+        " -o {output:q} 2>&1 | tee {log:q}"
 
 
 # All figures of a scene at once: importing Matplotlib takes longer than drawing them.

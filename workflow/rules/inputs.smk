@@ -213,6 +213,18 @@ def truth_part(wildcards):
     return asked.statement if asked.truth["kind"] == "exact" else coefficient_part(asked.document)
 
 
+def exact_statement(wildcards):
+    """A parameter: what an exact truth depends on, where there is one."""
+    asked = scene(wildcards.scene)
+    return as_json(asked.statement if asked.truth["kind"] == "exact" else None)
+
+
+def exact_option(wildcards, input):
+    """Option of the contact line for an exact truth, where there is one."""
+    exact = scene(wildcards.scene).truth["kind"] == "exact"
+    return f"--scene {quote(str(input.scene))}" if exact else ""
+
+
 def coefficient_part(document):
     """The diffusion coefficient, where a norm is weighted with it."""
     return document["data"]["coefficient"] if "energy" in document["norms"] else None

@@ -1,11 +1,15 @@
 """Tabulate what happens along the contact part: a row for each contact unknown, in order.
 
+With --scene its exact solution is tabulated, too, where it has one.
+
 example:
   signorini contact-line mesh.npz p1.npz cr.npz -o contact_line.csv
 """
 
+from pathlib import Path
+
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_mesh, add_output
+from signorini.commands.inputs import add_mesh, add_output, scene_of
 from signorini.exceptions import SceneError
 from signorini.fem.contact_line import contact_rows
 from signorini.mesh.domain import read_domain
@@ -17,6 +21,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_mesh(parser)
     parser.add_argument("solutions", metavar="SOLUTION", nargs="+", help="solutions, .npz")
+    parser.add_argument("--scene", metavar="SCENE", type=Path, help="tells the exact solution")
     add_output(parser, "the table, .csv")
 
 
@@ -37,6 +42,19 @@ def run(arguments):
         raise SceneError(
             "boundary: no degree of freedom is in contact; drop the contact line from outputs"
         )
+    if arguments.scene:
+        rows = _with_exact(rows, scene_of(arguments.scene))
     write_csv(arguments.output, rows)
     critical = sum(row["critical"] is not None for row in rows)
     return Outcome(f"contact line: {len(rows)} rows, {critical} critical points")
+
+
+def _with_exact(rows, scene):
+    """The rows with a column more, where the truth is exact."""
+    exact = scene.problem_statement.exact
+    if exact is None:
+        return rows
+    import numpy as np
+
+    values = exact.value(*(np.array([row[name] for row in rows]) for name in "xy"))
+    return [row | {"exact": float(value)} for row, value in zip(rows, values, strict=True)]

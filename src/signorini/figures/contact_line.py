@@ -1,4 +1,4 @@
-"""The contact part unrolled: u over the obstacle, and below it the density of the contact force."""
+"""The contact part unrolled: u over the obstacle, what lines hide, and the contact force."""
 
 import matplotlib
 import numpy as np
@@ -15,15 +15,24 @@ from signorini.figures.style import (
     new_figure,
 )
 from signorini.figures.units import tidy_ticks, unit_exponent, with_unit
-from signorini.report.contact_side import critical_heights, finest_lines
+from signorini.report.contact_side import (
+    critical_heights,
+    critical_runs,
+    differences,
+    finest_lines,
+)
 
 MOST_MARKERS = 24  # on a line
 UNITS = {  # what is counted in one unit -> the columns that share it
     "s": ("s", "critical"),
-    "u": ("u", "obstacle"),
+    "u": ("u", "obstacle", "exact"),
     "flux": ("flux", "threshold"),
 }
-LEFT, RIGHT = 0.09, 0.985  # of the panels, which are stacked
+RIGHT = 0.985  # of the panels, which are stacked
+LEFT, LETTER = 0.046, 0.0115  # of the panels without tick labels, and for each of their letters
+# Height of the figure, and bottom and height of each panel: u, difference, force.
+TWO = 0.62, {"u": (0.57, 0.36), "force": (0.2, 0.28)}
+THREE = 0.8, {"u": (0.66, 0.285), "difference": (0.45, 0.13), "force": (0.155, 0.217)}
 THRESHOLD = {"linestyle": (0, (1, 1.5))}
 FORCE = r"contact force $k\,\mathrm{d}u/\mathrm{d}\nu$"
 
@@ -32,7 +41,9 @@ FORCE = r"contact force $k\,\mathrm{d}u/\mathrm{d}\nu$"
 def draw_contact_line(rows):
     """Draw u with the obstacle, and the contact force, along the contact part.
 
-    Each element is shown at its finest level.
+    Each element is shown at its finest level. Between the two is the difference from the exact
+    solution, where the rows have it, or of CR from P1, where both are there: in the upper panel one
+    line is under the other.
 
     Parameters
     ----------
@@ -51,14 +62,22 @@ def draw_contact_line(rows):
     """
     lines = finest_lines(rows, elements_in(rows))
     units = {name: _to_unit(lines, columns) for name, columns in UNITS.items()}
-    figure = new_figure(0.86 * TEXT_WIDTH, 0.62 * TEXT_WIDTH)
-    upper = figure.add_axes((LEFT, 0.57, RIGHT - LEFT, 0.36))
-    lower = figure.add_axes((LEFT, 0.2, RIGHT - LEFT, 0.28), sharex=upper)
-    _draw_lines(upper, lower, lines)
-    _draw_critical_points(upper, lower, lines)
-    _draw_ends(upper, lower, next(iter(lines.values())))
-    _name_axes(upper, lower, units)
-    _set_limits(upper, lower, lines)
+    name, hidden = differences(lines)
+    height, places = THREE if hidden else TWO
+    figure = new_figure(0.86 * TEXT_WIDTH, height * TEXT_WIDTH)
+    panels = {
+        panel: figure.add_axes((LEFT, bottom, RIGHT - LEFT, tall))
+        for panel, (bottom, tall) in places.items()
+    }
+    _draw_lines(panels["u"], panels["force"], lines)
+    if hidden:
+        exponent = _draw_differences(panels["difference"], lines, hidden)
+        units["difference"] = units["u"] + exponent
+    _draw_critical_points(panels, lines)
+    _draw_ends(panels.values(), next(iter(lines.values())))
+    _name_axes(panels, units, name)
+    _set_limits(panels, lines)
+    _place(figure, panels, places)
     figure.legend(
         loc="lower center",
         ncols=4,
@@ -79,21 +98,43 @@ def _to_unit(lines, columns):
     return exponent
 
 
-def _name_axes(upper, lower, units):
-    names = {upper: ("$u$", "u"), lower: (FORCE, "flux")}
-    for axes, (name, unit) in names.items():
-        axes.set_title(with_unit(name, units[unit]), loc="left", x=-0.045, fontsize=9)
-        tidy_ticks(axes.yaxis, 2.0)
-    upper.tick_params(labelbottom=False)
-    tidy_ticks(upper.xaxis, 5.0)
-    lower.set_xlabel(with_unit("arc length $s$ along the contact part", units["s"]))
+def _name_axes(panels, units, name):
+    titles = {
+        "u": ("$u$", "u"),
+        "difference": (f"${name}$", "difference"),
+        "force": (FORCE, "flux"),
+    }
+    for panel, axes in panels.items():
+        title, unit = titles[panel]
+        axes.set_title(with_unit(title, units[unit]), loc="left", x=-0.045, fontsize=9)
+        tidy_ticks(axes.yaxis, 1.2 if panel == "difference" else 2.0)
+        tidy_ticks(axes.xaxis, 5.0)
+        axes.tick_params(labelbottom=panel == "force")
+    along = with_unit("arc length $s$ along the contact part", units["s"])
+    panels["force"].set_xlabel(along)
 
 
-def _set_limits(upper, lower, lines):
+def _set_limits(panels, lines):
     end = max(line["s"].max() for line in lines.values()) or 1.0
-    upper.set_xlim(-0.01 * end, 1.01 * end)
+    for axes in panels.values():
+        axes.set_xlim(-0.01 * end, 1.01 * end)
     if not any(line["flux"].any() for line in lines.values()):
-        lower.set_ylim(-0.05, 1)
+        panels["force"].set_ylim(-0.05, 1)
+
+
+def _place(figure, panels, places):
+    """Leave room at the left for the longest tick label."""
+    letters = max(_letters(axes) for axes in panels.values())
+    left = LEFT + LETTER * letters
+    for panel, (bottom, tall) in places.items():
+        panels[panel].set_position((left, bottom, RIGHT - left, tall))
+
+
+def _letters(axes):
+    """Of the longest tick label, without its dollars."""
+    low, high = axes.get_ylim()
+    ticks = [tick for tick in axes.get_yticks() if low <= tick <= high]
+    return max((len(f"{tick:.6g}") for tick in ticks), default=1)
 
 
 def _by_component(line, name):
@@ -120,14 +161,29 @@ def _draw_lines(upper, lower, lines):
         lower.plot(*_by_component(first, "threshold"), label="threshold", **style | THRESHOLD)
 
 
+def _draw_differences(axes, lines, hidden):
+    """Draw differences from zero, the exponent of whose unit is returned."""
+    values = np.concatenate(list(hidden.values()))
+    exponent = unit_exponent(values[~np.isnan(values)])
+    axes.axhline(0, color=FAINT, linewidth=0.5, zorder=1)
+    for element, difference in hidden.items():
+        line = lines[element] | {"difference": difference / 10.0**exponent}
+        style = ELEMENT_STYLES[element] | {"marker": "", "linewidth": 0.8}
+        axes.plot(*_by_component(line, "difference"), **style)
+    return exponent
+
+
 def _level(line):
     """What tells the level: n, or the mesh width where that is not 1/n."""
     return f"$n = {line['n']}$" if line.get("h") is None else f"$h = {line['h']:.2g}$"
 
 
-def _draw_critical_points(upper, lower, lines):
-    """A line through both panels in the colour of the element, and a point on the obstacle."""
-    label = "critical point"
+def _draw_critical_points(panels, lines):
+    """A line through all panels in the colour of the element, and a point on the obstacle.
+
+    Where contact goes by turns, a band instead.
+    """
+    point, band = "critical point", "contact by turns"
     for element, line in lines.items():
         colour = ELEMENT_STYLES[element]["color"]
         style = {
@@ -137,18 +193,25 @@ def _draw_critical_points(upper, lower, lines):
             "zorder": 1.5,
         }
         places, heights = critical_heights(line)
-        for s in places:
-            upper.axvline(s, **style)
-            lower.axvline(s, **style)
+        for axes in panels.values():
+            for s in places:
+                axes.axvline(s, **style)
+        for first, last in critical_runs(line)[1]:
+            for axes in panels.values():
+                label = band if axes is panels["u"] else "_"
+                axes.axvspan(
+                    first, last, color=FAINT, alpha=0.35, linewidth=0, label=label, zorder=0
+                )
+            band = "_"
         if places.size:
             marker = CRITICAL | {"markeredgecolor": colour}
-            upper.plot(places, heights, "o", label=label, zorder=5, **marker)
-            label = "_"  # one entry of the legend is enough
+            panels["u"].plot(places, heights, "o", label=point, zorder=5, **marker)
+            point = "_"  # one entry of the legend is enough
 
 
-def _draw_ends(upper, lower, line):
-    """A line through both panels where one component ends and the next starts."""
+def _draw_ends(panels, line):
+    """A line through all panels where one component ends and the next starts."""
     for k in np.flatnonzero(np.diff(line["component"])):
         middle = 0.5 * (line["s"][k] + line["s"][k + 1])
-        for axes in (upper, lower):
+        for axes in panels:
             axes.axvline(middle, color=FAINT, linewidth=0.8, zorder=1)

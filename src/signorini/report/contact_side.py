@@ -2,8 +2,11 @@
 
 import numpy as np
 
-NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical", "threshold")
-"""Columns of contact_line.csv that are numbers and drawn; without a threshold it is 0."""
+NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical", "threshold", "exact")
+"""Columns of contact_line.csv that are numbers and drawn; `_ABSENT` has those that may lack."""
+_CR_FROM_P1 = r"u_\mathrm{CR} - u_\mathrm{P1}"
+_ABSENT = {"threshold": 0.0, "exact": None}
+BY_TURNS = 4  # neighbouring critical points from which on they are an interval
 
 
 def finest_lines(rows, elements):
@@ -48,12 +51,90 @@ def finest_lines(rows, elements):
 
 
 def _column(rows, name):
-    values = [row.get(name, 0.0) if name == "threshold" else row[name] for row in rows]
+    values = [row.get(name, _ABSENT[name]) if name in _ABSENT else row[name] for row in rows]
     return np.array([np.nan if value in (None, "") else float(value) for value in values])
+
+
+def differences(lines):
+    """What one line hides under another: u against the exact solution, or else CR against P1.
+
+    Parameters
+    ----------
+    lines : mapping
+        What `finest_lines` returns.
+
+    Returns
+    -------
+    name : str or None
+        Of the difference, in mathematics; None where there is nothing to compare with.
+    values : dict of str to ndarray
+        Element -> the difference at the places of its line, NaN where there is none; unit of u. P1
+        is affine between its places, so that its values at those of CR are exact.
+
+    Examples
+    --------
+    >>> row = dict.fromkeys(NUMBERS, 0.0) | {"n": 4, "component": 1, "u": 1.0}
+    >>> rows = [row | {"element": "P1", "s": s, "u": s} for s in (0.0, 1.0)]
+    >>> rows.append(row | {"element": "CR", "s": 0.5, "u": 0.75, "exact": None})
+    >>> differences(finest_lines(rows[:2], ["P1"]))
+    ('u_h - u', {'P1': array([0., 1.])})
+    >>> plain = [{**row, "exact": None} for row in rows]
+    >>> differences(finest_lines(plain, ["P1", "CR"]))[1]
+    {'CR': array([0.25])}
+    """
+    if all(np.isfinite(line["exact"]).all() for line in lines.values()):
+        return "u_h - u", {name: line["u"] - line["exact"] for name, line in lines.items()}
+    if not {"P1", "CR"} <= set(lines) or lines["P1"]["n"] != lines["CR"]["n"]:
+        return None, {}
+    p1, cr = lines["P1"], lines["CR"]
+    found = np.full(cr["s"].size, np.nan)
+    for component in np.unique(p1["component"]):
+        there, here = p1["component"] == component, cr["component"] == component
+        known = np.interp(cr["s"][here], p1["s"][there], p1["u"][there], np.nan, np.nan)
+        found[here] = cr["u"][here] - known
+    return _CR_FROM_P1, {"CR": found}
+
+
+def critical_runs(line):
+    """Tell critical points from intervals on which contact goes by turns.
+
+    Where u touches the obstacle without pressing on it, the signs of round-off make contact of
+    every second point or so; the many critical points there are one interval.
+
+    Parameters
+    ----------
+    line : mapping of str to ndarray
+        As `finest_lines` returns.
+
+    Returns
+    -------
+    points : ndarray, shape (c,)
+        Arc lengths of those that stand alone, or nearly so.
+    intervals : ndarray, shape (k, 2)
+        First and last arc length of at least `BY_TURNS` that follow one another.
+
+    Examples
+    --------
+    >>> s = np.arange(12.0)
+    >>> critical = np.where((s > 4) & (s < 9) | (s == 1), s + 0.5, np.nan)
+    >>> points, intervals = critical_runs({"s": s, "critical": critical})
+    >>> points.tolist(), intervals.tolist()
+    ([1.5], [[5.5, 8.5]])
+    """
+    places = line["critical"][~np.isnan(line["critical"])]
+    if not places.size:
+        return places, np.zeros((0, 2))
+    near = 2.5 * np.median(np.diff(line["s"])) if line["s"].size > 1 else 0.0
+    runs = np.split(places, np.flatnonzero(np.diff(places) > near) + 1)
+    alone = [run for run in runs if run.size < BY_TURNS]
+    together = [(run[0], run[-1]) for run in runs if run.size >= BY_TURNS]
+    return np.concatenate([places[:0], *alone]), np.reshape(together, (-1, 2))
 
 
 def critical_heights(line):
     """Return where the critical points of a contact line are, and the obstacle there.
+
+    Those of intervals are left out, see `critical_runs`.
 
     Parameters
     ----------
@@ -71,7 +152,7 @@ def critical_heights(line):
     >>> critical_heights(ramp | {"critical": np.array([np.nan, 0.25])})
     (array([0.25]), array([0.5]))
     """
-    places = line["critical"][~np.isnan(line["critical"])]
+    places, _ = critical_runs(line)
     return places, np.interp(places, line["s"], line["obstacle"])
 
 

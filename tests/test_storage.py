@@ -92,6 +92,13 @@ def test_an_array_that_hides_its_end_is_refused(tmp_path):
         read_npz(path, "solution")
 
 
+@pytest.mark.parametrize("read", [lambda path: read_npz(path, "solution"), read_csv, read_sealed])
+def test_a_missing_file_is_told_as_such(tmp_path, read):
+    with pytest.raises(StorageError, match="there is no such file; make it first") as caught:
+        read(tmp_path / "a")
+    assert str(caught.value).startswith(str(tmp_path / "a"))
+
+
 @pytest.mark.parametrize(
     "content", [b"", b"text", b"\x80\x04K\x01."], ids=["empty", "text", "pickle"]
 )

@@ -84,7 +84,7 @@ def test_strange_tables_are_refused_by_name(tmp_path, text, numbers):
 def test_a_missing_table_is_named(tmp_path):
     for read in (read_csv, read_table):
         with pytest.raises(
-            StorageError, match=r"t\.csv: cannot read \(No such file .*\); delete it and rerun"
+            StorageError, match=r"t\.csv: there is no such file; make it first, or correct the name"
         ):
             read(tmp_path / "t.csv")
 

@@ -109,6 +109,20 @@ def test_a_wrong_argument_is_told_in_one_line(words, said, capsys):
     assert told.count("\n") == 1
 
 
+@pytest.mark.parametrize("command", ["solve --element P1", "certificate", "certify"])
+@pytest.mark.parametrize("n", [0, -4])
+def test_what_is_no_level_is_told(command, n, small, capsys):
+    code, _, told = call(capsys, *command.split(), small, f"--n={n}")
+    assert code == 1
+    assert told == f"error: --n {n}: n is 1/h, a positive whole number, for instance 8\n"
+
+
+def test_show_tells_that_a_file_is_not_there(tmp_path, capsys):
+    code, _, told = call(capsys, "show", tmp_path / "u.npz")
+    assert code == 1
+    assert told.startswith(f"error: {tmp_path / 'u.npz'}: there is no such file; make it")
+
+
 @pytest.mark.parametrize("command", ["check", "macros", "sweep"])
 def test_the_bare_name_of_a_scene_gets_its_path(command, capsys, monkeypatch):
     monkeypatch.chdir(ROOT)

@@ -12,7 +12,7 @@ import logging
 
 from signorini.certificate.level import certified_level, write_level
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.commands.inputs import add_output, add_scene, check_n, domain_of, scene_of
 from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
@@ -34,6 +34,7 @@ def add_arguments(parser):
 def run(arguments):
     """Certify, and write or tell."""
     scene, n = scene_of(arguments.scene), arguments.n
+    check_n(n)
     statement, method = scene.problem_statement, scene.document["solver"]["method"]
     with naming(scene.source):
         domain = domain_of(scene, arguments.mesh)

@@ -14,7 +14,7 @@ from signorini.api.solving import solve_level
 from signorini.certificate.goal import approach, expected_level
 from signorini.certificate.level import certified_level
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_scene, scene_of
+from signorini.commands.inputs import add_scene, check_n, scene_of
 from signorini.exceptions import MeshError, SceneError
 from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.scene.memory_check import check_level
@@ -34,7 +34,7 @@ def add_arguments(parser):
         "--to",
         type=float,
         metavar="BOUND",
-        help="the goal, unit of the energy norm; else one level",
+        help="the bound at which to end, unit of the energy norm; not given: after the first level",
     )
 
 
@@ -45,9 +45,11 @@ def run(arguments):
     goal = arguments.to if arguments.to is not None else float("inf")
     if not goal > 0.0:
         raise SceneError(f"--to {goal:g}: a bound is positive, for instance 1e-3")
+    if arguments.n is not None:
+        check_n(arguments.n)
     steps = []
     with naming(scene.source):
-        first = arguments.n or scene.levels[0]
+        first = scene.levels[0] if arguments.n is None else arguments.n
         try:
             for step in approach(partial(_certified, scene, elements), first, elements, goal):
                 steps.append(step)

@@ -66,6 +66,17 @@ def scene_of(path):
     return load_scene(path)
 
 
+def check_n(n):
+    """Refuse what is no level.
+
+    Raises
+    ------
+    SceneError
+    """
+    if n < 1:
+        raise SceneError(f"--n {n}: n is 1/h, a positive whole number, for instance 8")
+
+
 def domain_of(scene, mesh):
     """The domain of a scene: from a mesh that ``signorini mesh`` stored, or made anew.
 

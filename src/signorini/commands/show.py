@@ -10,6 +10,7 @@ from pathlib import Path
 from signorini.commands.catalogue import Outcome
 from signorini.exceptions import StorageError
 from signorini.storage import read_npz, read_table
+from signorini.storage.files import missing
 
 _ROWS = 20  # of a table that are shown
 
@@ -48,6 +49,8 @@ def _kind(path):
     try:
         with np.load(path, allow_pickle=False) as archive:
             return str(archive["kind"])
+    except FileNotFoundError:
+        raise missing(path) from None
     except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
         raise StorageError(f"{path}: not a result file ({error})") from error
 

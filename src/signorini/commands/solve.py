@@ -10,7 +10,7 @@ example:
 import logging
 
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
+from signorini.commands.inputs import add_output, add_scene, check_n, domain_of, scene_of
 from signorini.exceptions import SceneError
 from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.fem.problem import discretize_on
@@ -76,8 +76,7 @@ def _level(scene, arguments):
         return scene.truth["element"], scene.truth["n"]
     if arguments.element is None or arguments.n is None:
         raise SceneError("give --element and --n, or --reference")
-    if arguments.n < 1:
-        raise SceneError(f"--n {arguments.n}: n is 1/h, a positive whole number, for instance 8")
+    check_n(arguments.n)
     return arguments.element, arguments.n
 
 

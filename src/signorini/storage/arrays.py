@@ -3,7 +3,7 @@
 import zipfile
 
 from signorini.exceptions import StorageError
-from signorini.storage.files import replacing
+from signorini.storage.files import missing, replacing
 
 
 def write_npz(path, kind, **arrays):
@@ -67,6 +67,8 @@ def read_npz(path, kind):
             }
             if archive.comment != " ".join(arrays).encode():
                 raise ValueError("entries are missing")
+    except FileNotFoundError:
+        raise missing(path) from None
     except (OSError, ValueError, EOFError, RuntimeError, MemoryError, zipfile.BadZipFile) as error:
         raise StorageError(
             f"{path}: truncated or altered ({error}); delete it and rerun"

@@ -109,6 +109,11 @@ def read_sealed(path):
     return content
 
 
+def missing(path):
+    """The `StorageError` of a file that is not there."""
+    return StorageError(f"{path}: there is no such file; make it first, or correct the name")
+
+
 def read_bytes(path):
     """The bytes of a file, with or without a digest.
 
@@ -119,6 +124,8 @@ def read_bytes(path):
     """
     try:
         return Path(path).read_bytes()
+    except FileNotFoundError:
+        raise missing(path) from None
     except OSError as error:
         raise StorageError(
             f"{path}: cannot read ({error.strerror}); delete it and rerun"

@@ -15,7 +15,7 @@ help:
 	@echo 'make docs          build the documentation site, build/site/index.html'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make examples      run the examples, draw their pictures and write docs/examples.md'
-	@echo 'make studies       run the five studies, up to an hour, and keep what they measured in docs/studies'
+	@echo 'make studies       run the six studies, up to an hour, and keep what they measured in docs/studies'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
 	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
@@ -46,7 +46,7 @@ examples: .venv/ready
 	.venv/bin/python docs/draw_examples.py
 
 studies: .venv/ready
-	$(run) snakemake --cores $(CORES) sensitivity theory adaptive benchmark stability
+	$(run) snakemake --cores $(CORES) sensitivity theory adaptive guaranteed benchmark stability
 	.venv/bin/python docs/keep_studies.py
 
 requirements:

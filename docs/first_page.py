@@ -3,7 +3,10 @@ of the kept studies.
 """
 
 import csv
+from decimal import ROUND_CEILING, ROUND_FLOOR
 from pathlib import Path
+
+from signorini.report.certificates import outward
 
 STUDIES = Path(__file__).resolve().parent / "studies"
 REFERENCE = {"scene": "paper", "element": "P1", "method": "fourier", "n": "512"}
@@ -17,7 +20,9 @@ PROMISES = """\
   solves of generated problems {solved} are called `solved`; held against extended precision,
   {wrong} of them is wrong ([stability](docs/studies/stability/stability.md)).
 - **Guaranteed errors.** From the P1 and the CR solution of one mesh follow proved bounds of both
-  errors, without an exact or a finer solution ([certificates](docs/certificate.md)).
+  errors, without an exact or a finer solution ([certificates](docs/certificate.md)). That of the
+  paper's CR solution at N = {finest} lies between {lower} and {upper}, where its table implies
+  {printed} ([the table between bounds](docs/studies/guaranteed/guaranteed.md)).
 - **Milliseconds.** The paper's reference, with {unknowns} unknowns, takes {milliseconds:.0f} ms on
   one thread, from the statement of its problem to the proof ([speed](docs/speed.md)).
 """
@@ -32,7 +37,7 @@ def promises(verdict):
         The line of results/paper/check.txt.
     """
     met = verdict.partition(";")[0]
-    return PROMISES.format(met=met, sixth=sixth_choice(), **proofs(), **speed())
+    return PROMISES.format(met=met, sixth=sixth_choice(), **proofs(), **bounds(), **speed())
 
 
 def sixth_choice():
@@ -48,6 +53,14 @@ def proofs():
     keys = ("solutions", "solved", "wrong")
     counts = {key: sum(int(row[key]) for row in rows) for key in keys}
     return counts | {"wrong": counts["wrong"] or "none"}
+
+
+def bounds():
+    """The guaranteed interval of CR's finest error, and what was printed."""
+    row = [row for row in _rows("guaranteed/guaranteed.csv") if row["element"] == "CR"][-1]
+    lower, upper = outward(row["lower"], ROUND_FLOOR), outward(row["upper"], ROUND_CEILING)
+    printed = f"{float(row['printed']):.6f}"
+    return {"finest": row["n"], "lower": lower, "upper": upper, "printed": printed}
 
 
 def speed():

@@ -3,6 +3,7 @@
 import runpy
 import sys
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -102,3 +103,11 @@ def test_an_own_exact_solution_has_its_rates_and_a_slip_is_found():
     assert found["rates"]["l2"] == pytest.approx(2.0, abs=0.1)
     assert found["rates"]["multiplier_l2"] == pytest.approx(1.0, abs=0.1)
     assert found["message"].startswith("f: ")
+
+
+def test_a_guaranteed_error_is_an_interval_that_shrinks():
+    found = ran("ex10_guaranteed_error")["found"]
+    for element in ("P1", "CR"):
+        bounds = [found[element, n] for n in (4, 8, 16, 32)]
+        assert all(0.0 < one.lower < one.upper for one in bounds)
+        assert all(fine.upper < coarse.upper for coarse, fine in pairwise(bounds))

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-WITH_CODE = ("README.md", "docs/python.md")
+WITH_CODE = ("README.md", "docs/python.md", "docs/certificate.md")
 WITH_LINKS = (*WITH_CODE, "docs/examples.md", "CHANGELOG.md")
 
 

@@ -99,7 +99,7 @@ def test_every_scene_of_a_page_ships(update):
 
 def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_path):
     page = update.first_page
-    for name in ("stability", "benchmark", "sensitivity"):
+    for name in ("stability", "benchmark", "sensitivity", "guaranteed"):
         (tmp_path / name).mkdir()
     statuses = "solutions,solved,wrong\n10,7,0\n5,4,1\n"
     times = "scene,element,method,n,dofs,total\npaper,CR,fourier,512,9,1\n"
@@ -109,6 +109,9 @@ def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_pa
     (tmp_path / "sensitivity/sensitivity_digits.csv").write_text(digits, encoding="utf-8")
     (tmp_path / "stability/statuses.csv").write_text(statuses, encoding="utf-8")
     (tmp_path / "benchmark/benchmark.csv").write_text(times, encoding="utf-8")
+    bounds = "element,n,lower,upper,printed\nP1,64,1,2,3\nCR,8,1,2,3\n"
+    bounds += "CR,64,0.0208769,0.0209381,0.0210075\n"
+    (tmp_path / "guaranteed/guaranteed.csv").write_text(bounds, encoding="utf-8")
     monkeypatch.setattr(page, "STUDIES", tmp_path)
     assert page.proofs() == {"solutions": 15, "solved": 11, "wrong": 1}
     assert page.speed() == {"unknowns": "262656", "milliseconds": pytest.approx(31.6)}
@@ -116,6 +119,7 @@ def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_pa
     assert "all 28 numbers met (" in text
     assert "23 of 24 with [a sixth choice]" in text
     assert "262656 unknowns, takes 32 ms" in text
+    assert "N = 64 lies between 0.020876 and 0.020939" in text  # rounded outward
 
 
 def test_the_first_page_says_none_where_no_solve_is_wrong(update):

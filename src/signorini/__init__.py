@@ -25,6 +25,7 @@ _ROOMS = {
     "Scene": "scene.scene",
     "SignoriniError": "exceptions",
     "Solution": "api.solution",
+    "certify": "api.certificate",
     "convergence": "api.convergence",
     "discretize": "fem.problem",
     "exact_solution": "api.exact",

@@ -1,3 +1,4 @@
+from signorini.api.certificate import certify as certify
 from signorini.api.convergence import convergence as convergence
 from signorini.api.convergence import rates as rates
 from signorini.api.domains import polygon as polygon

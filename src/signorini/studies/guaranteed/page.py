@@ -8,7 +8,7 @@ from signorini.report.document import render
 from signorini.studies.guaranteed.rows import advantage
 
 PAGE = "studies/guaranteed/page.md.j2"
-_ENERGY_DIGITS, _PLACE_DIGITS = 11, 4
+_ENERGY_DIGITS, _PLACE_DIGITS, _PERCENT_DIGITS = 11, 4, 3
 
 
 def page(layout, rows, fine, quick=False):
@@ -46,10 +46,17 @@ def page(layout, rows, fine, quick=False):
             for low, high in fine.critical
         ],
         off=[row for row in rows if row["beyond"]],
-        advantage=advantage(rows, finest),
+        advantage=_percents(*advantage(rows, finest)),
         names=ABBREVIATIONS,
         quick=quick,
     )
+
+
+def _percents(low, high, printed):
+    """An advantage in percent, as text, its interval rounded outward."""
+    ends = (100.0 * low, ROUND_FLOOR), (100.0 * high, ROUND_CEILING)
+    interval = [outward(value, way, _PERCENT_DIGITS) for value, way in ends]
+    return [*interval, None if printed is None else f"{100.0 * printed:.1f}"]
 
 
 def _half_width(row):

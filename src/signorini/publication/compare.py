@@ -100,7 +100,8 @@ def _refuse_missed(rows, source):
         for row in missed
     )
     raise SignoriniError(
-        f"{source}: {len(missed)} of {len(rows)} published numbers not met: {cells}"
+        f"{source}: {len(missed)} of {len(rows)} published numbers not met: {cells}; "
+        "change the scene, or what was typed wrong, or allow a larger tolerance there"
     )
 
 

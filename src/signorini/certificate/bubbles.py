@@ -147,16 +147,20 @@ class _OnGrid:
         product = self.diagonal * x
         h, v, d = self._parts(x)
         own_h, own_v, own_d = self._parts(product)
-        for y, diagonals in ((h, self._ky * d), (v, self._kx * d)):
-            own = own_h if y is h else own_v
-            first, second = _beside(own, y is h)
-            first -= diagonals
-            second -= diagonals
-        for y, k in ((h, self._ky), (v, self._kx)):
-            first, second = _beside(y, y is h)
-            sums = first + second
-            sums *= k
-            own_d -= sums
+        for first, last in self._grid.row_chunks():  # so that temporaries stay in a cache
+            rows, above = slice(first, last), slice(first + 1, last + 1)
+            part = self._ky * d[rows]
+            own_h[rows] -= part
+            own_h[above] -= part
+            np.multiply(d[rows], self._kx, out=part)
+            own_v[rows, :-1] -= part
+            own_v[rows, 1:] -= part
+            np.add(h[rows], h[above], out=part)
+            part *= self._ky
+            own_d[rows] -= part
+            np.add(v[rows, :-1], v[rows, 1:], out=part)
+            part *= self._kx
+            own_d[rows] -= part
         return product
 
     def _parts(self, x):
@@ -172,8 +176,3 @@ class _OnGrid:
 
     def back(self, x):
         return self._grid.join_edges(*self._parts(x))
-
-
-def _beside(edges, horizontal):
-    """Views of the edges before and after each cell: below and above it, or left and right."""
-    return (edges[:-1], edges[1:]) if horizontal else (edges[:, :-1], edges[:, 1:])

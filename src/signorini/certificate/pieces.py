@@ -111,21 +111,23 @@ class Topology:
 
     def pieces(self):
         """Yield all triangles, a `Piece` at a time."""
-        halves = 2 if isinstance(self.mesh, Grid) else 1
-        size = self.count // halves
-        for half in range(halves):
+        if not isinstance(self.mesh, Grid):
+            for cells in chunk_slices(self.count, _AT_ONCE):
+                yield self._piece(cells, *self._shapes(cells))
+            return
+        size = self.count // 2
+        for first in (0, size):
+            shapes = self._shapes(slice(first, first + 1))
             for part in chunk_slices(size, _AT_ONCE):
-                cells = slice(half * size + part.start, half * size + part.stop)
-                yield self._piece(
-                    cells, slice(cells.start, cells.start + 1) if halves > 1 else cells
-                )
+                yield self._piece(slice(first + part.start, first + part.stop), *shapes)
 
-    def _piece(self, cells, shapes):
-        """Some triangles, of which those in `shapes` tell the shapes of all."""
-        edges = self.mesh.edge_vectors(shapes)
+    def _shapes(self, cells):
+        """`edges` and `signs` of some triangles."""
+        edges, t = self.mesh.edge_vectors(cells), self.t[:, cells]
         doubled = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
-        t = self.t[:, shapes]
-        signs = np.where(t[NEXT] > t, np.sign(doubled), -np.sign(doubled))
+        return edges, np.where(t[NEXT] > t, np.sign(doubled), -np.sign(doubled))
+
+    def _piece(self, cells, edges, signs):
         k = 1.0 if self.coefficient is None else self.coefficient[cells]
         return Piece(cells, self.t2f[:, cells], edges, signs, k)
 

@@ -24,7 +24,8 @@ def declared(tmp_path_factory):
     """Command -> library files among its inputs."""
     project = Project.fresh(tmp_path_factory.mktemp("loads") / "project")
     project.ask_for("paper", "small")
-    files = ["results/paper/paper.pdf", "results/paper/vtu/P1.vtu", "results/smooth/expect.txt"]
+    built = ("paper/paper.pdf", "paper/vtu/P1.vtu", "paper/viewer.html", "smooth/expect.txt")
+    files = [f"results/{file}" for file in built]
     targets = [
         *files,
         "all",

@@ -3,7 +3,7 @@
 import numpy as np
 
 NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical", "threshold", "exact")
-"""Columns of contact_line.csv that are numbers and drawn; `_ABSENT` has those that may lack."""
+"""Columns of contact_line.csv that are numbers and drawn; not every table has all of them."""
 _CR_FROM_P1 = r"u_\mathrm{CR} - u_\mathrm{P1}"
 _ABSENT = {"threshold": 0.0, "exact": None}
 BY_TURNS = 4  # neighbouring critical points from which on they are an interval

@@ -19,8 +19,8 @@ PROMISES = """\
   contact forces that rounding leaves, and the contact unknowns that it leaves open. Of {solutions}
   solves of generated problems {solved} are called `solved`; held against extended precision,
   {wrong} of them is wrong ([stability](docs/studies/stability/stability.md)).
-- **Guaranteed errors.** From the P1 and the CR solution of one mesh follow proved bounds of both
-  errors, without an exact or a finer solution ([certificates](docs/certificate.md)). That of the
+- **Guaranteed errors.** `signorini.certify(solution)` gives proved bounds of the error, without an
+  exact or a finer solution ([certificates](docs/certificate.md)). That of the
   paper's CR solution at N = {finest} lies between {lower} and {upper}, where its table implies
   {printed} ([the table between bounds](docs/studies/guaranteed/guaranteed.md)).
 - **Milliseconds.** The paper's reference, with {unknowns} unknowns, takes {milliseconds:.0f} ms on

@@ -2,7 +2,7 @@
 
 import re
 
-BARS = re.compile(r"\|(?=\S)|(?<=\S)\|")
+BARS = re.compile(r"(?<!\\)\|")
 
 
 def escape(app, what, name, thing, options, lines):

@@ -2,12 +2,22 @@
 
 import re
 
-BARS = re.compile(r"(?<!\\)\|")
+BAR = re.compile(r"(?<!\\)\|")
+LITERAL = re.compile(r"(``.*?``)")
+
+
+def escaped(line):
+    """A line with its bars escaped, but not in an example, nor between double backquotes."""
+    if ">>>" in line:
+        return line
+    parts = LITERAL.split(line)
+    parts[::2] = [BAR.sub(r"\\|", part) for part in parts[::2]]
+    return "".join(parts)
 
 
 def escape(app, what, name, thing, options, lines):
-    """Escape the bars of a docstring, but not in its examples."""
-    lines[:] = [line if ">>>" in line or "``" in line else BARS.sub(r"\\|", line) for line in lines]
+    """Sphinx's hook for a docstring."""
+    lines[:] = map(escaped, lines)
 
 
 def setup(app):

@@ -134,3 +134,16 @@ def test_keys_of_a_scene_on_a_page_are_known(name, made_blocks):
     free = ("boundary.", "quantities.", "sweep.")  # whose keys are names or paths
     assert shown.keys() <= known
     assert {key for key in inner if not key.startswith(free)} <= known
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("|b| + 2 eps (|A| |u|)", r"\|b\| + 2 eps (\|A\| \|u\|)"),
+        ("``a | b`` and |c|", r"``a | b`` and \|c\|"),
+        (">>> a | b", ">>> a | b"),
+        (r"\|b\|", r"\|b\|"),
+    ],
+)
+def test_absolute_values_in_docstrings_are_no_names(line, expected, made_blocks):
+    assert importlib.import_module("absolute_values").escaped(line) == expected

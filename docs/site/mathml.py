@@ -9,6 +9,10 @@ from docutils.utils.math.latex2mathml import tex2mathml
 TAG = re.compile(r"\\tag\{(.*?)\}")  # MathML has none
 DOTS = re.compile(r"\\dots\b")  # unknown to docutils, which knows \ldots
 
+TIGHT = re.compile(r"<mo>([|‖/])</mo>")  # bars would stretch over indices, a slash stand apart
+FUNCTION = re.compile(r"(<mi>(?:log|sin|cos)</mi>)")
+SPACE = '<mspace width="0.17em"/>'
+
 
 def setup(app):
     """Register the renderer `mathml`, which `html_math_renderer` in conf.py names."""
@@ -40,4 +44,6 @@ def in_environment(text):
 
 def mathml(text, as_block=False):
     """A formula in LaTeX as MathML."""
-    return tex2mathml(DOTS.sub(r"\\ldots", text), as_block=as_block)
+    found = tex2mathml(DOTS.sub(r"\\ldots", text), as_block=as_block)
+    found = TIGHT.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', found)
+    return FUNCTION.sub(rf"\1{SPACE}", found)

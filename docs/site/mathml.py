@@ -9,7 +9,7 @@ from docutils.utils.math.latex2mathml import tex2mathml
 TAG = re.compile(r"\\tag\{(.*?)\}")  # MathML has none
 DOTS = re.compile(r"\\dots\b")  # unknown to docutils, which knows \ldots
 
-TIGHT = re.compile(r"<mo>([|‖/])</mo>")  # bars would stretch over indices, a slash stand apart
+TIGHT = re.compile(r'<mo(?: stretchy="false")?>([|‖/])</mo>')  # no stretch over indices, no space
 FUNCTION = re.compile(r"(<mi>(?:log|sin|cos)</mi>)")
 SPACE = '<mspace width="0.17em"/>'
 

@@ -7,6 +7,7 @@ from builders import delaunay, grid
 from signorini.certificate.lift import Panels, by_slopes, by_values, lift
 from signorini.certificate.pieces import Topology
 from signorini.certificate.trace import trace
+from signorini.exceptions import SceneError
 from signorini.fem.quadrature import triangle_rule
 
 TRACE = trace(Topology(delaunay(1)), "neumann")
@@ -15,7 +16,10 @@ TRACE = trace(Topology(delaunay(1)), "neumann")
 def test_a_quadratic_lift_is_a_bubble():
     """r = 4 s (1 - s) is that of 4 lambda_i lambda_j / (lambda_i + lambda_j); by quadrature."""
     found = lift(
-        TRACE, by_values(lambda s: np.tile(4 * s * (1 - s), (TRACE.facets.size, 1))), "r", 1.0
+        TRACE,
+        by_values(lambda s, facets: np.tile(4 * s * (1 - s), (TRACE.facets[facets].size, 1))),
+        "r",
+        1.0,
     )
     points, weights = triangle_rule(40)
     i, j = points[0], points[1]
@@ -29,11 +33,11 @@ def test_a_quadratic_lift_is_a_bubble():
 
 
 def test_values_and_slopes_tell_the_same():
-    def wave(s):
-        return np.tile(np.sin(np.pi * s), (TRACE.facets.size, 1))
+    def wave(s, facets):
+        return np.tile(np.sin(np.pi * s), (TRACE.facets[facets].size, 1))
 
-    def slope(s):
-        return np.tile(np.pi * np.cos(np.pi * s), (TRACE.facets.size, 1))
+    def slope(s, facets):
+        return np.tile(np.pi * np.cos(np.pi * s), (TRACE.facets[facets].size, 1))
 
     one, other = lift(TRACE, by_values(wave), "r", 1.0), lift(TRACE, by_slopes(slope), "r", 1.0)
     np.testing.assert_allclose(one.gradient, other.gradient, rtol=1e-5)
@@ -42,7 +46,7 @@ def test_values_and_slopes_tell_the_same():
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_panels_integrate_what_they_differentiate(count):
-    panels = Panels(count)
+    panels = Panels(np.linspace(0.0, 1.0, count + 1))
     values = np.stack([panels.s**4, 1 - panels.s**5])
     slopes = np.stack([4 * panels.s**3, -5 * panels.s**4])
     np.testing.assert_allclose(panels.derivative(values), slopes, atol=1e-12)
@@ -67,3 +71,63 @@ def test_a_trace_is_the_boundary(mesh, label):
     along = found.end - found.start
     rise = (found.slopes * along).sum(axis=1)
     np.testing.assert_allclose(rise, np.stack([-np.ones(rise.shape[1]), np.ones(rise.shape[1])]))
+
+
+def tile(function):
+    return by_values(lambda s, facets: np.tile(function(s), (TRACE.facets[facets].size, 1)))
+
+
+def energies(function, derivative, breaks):
+    """The integrals with |.|^2 of a lift, panels ending where the function has a kink."""
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    start, end = np.array([0.0, *breaks])[:, None], np.array([*breaks, 1.0])[:, None]
+    s = (0.5 * (start + end) + 0.5 * (end - start) * nodes).ravel()
+    w = (0.5 * (end - start) * weights).ravel()
+    i, j = TRACE.slopes[..., None]
+    gradient = (i + j) * function(s) + derivative(s) * (j - s * (i + j))
+    return TRACE.area * ((gradient**2).sum(axis=0) @ w)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_kink_anywhere_is_lifted_by_no_less_than_it_takes(seed):
+    (c,) = np.random.default_rng(seed).uniform(0.001, 0.999, 1)
+
+    def tent(s):
+        return np.where(s < c, s / c, (1 - s) / (1 - c))
+
+    def slope(s):
+        return np.where(s < c, 1 / c, -1 / (1 - c))
+
+    found, true = lift(TRACE, tile(tent), "r", 1.0), energies(tent, slope, [c])
+    assert np.all(found.gradient >= true * (1 - 1e-5))
+    assert np.all(found.gradient <= 1.01 * true)
+
+
+def test_many_kinks_on_one_facet():
+    places = np.linspace(0, 1, 31)
+    heights = np.random.default_rng(3).standard_normal(31)
+    heights[[0, -1]] = 0.0
+
+    def polygon(s):
+        return np.interp(s, places, heights)
+
+    def slope(s):
+        return np.diff(heights)[np.clip(np.floor(s * 30).astype(int), 0, 29)] * 30
+
+    found = lift(TRACE, tile(polygon), "r", 1.0)
+    true = energies(polygon, slope, places[1:-1])
+    assert np.all(found.gradient >= true * (1 - 1e-5))
+    assert np.all(found.gradient <= 1.01 * true)
+
+
+@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("power", [0.0, 0.3, 0.5])
+def test_jumps_and_inner_roots_are_refused_wherever_they_are(power, seed):
+    (c,) = np.random.default_rng(seed).uniform(0.01, 0.99, 1)
+    ends = [np.sign(e - c) * abs(e - c) ** power for e in (0.0, 1.0)]
+
+    def root(s):
+        return np.sign(s - c) * np.abs(s - c) ** power - ends[0] * (1 - s) - ends[1] * s
+
+    with pytest.raises(SceneError, match="r: has no square integrable derivative along the facet"):
+        lift(TRACE, tile(root), "r", 1.0)

@@ -134,11 +134,11 @@ class _Lifts:
         middle = _beyond_affine(trace, datum, np.array([0.5]))
         root = np.sqrt(trace.coefficient)
 
-        def all_of_it(s):
-            return _beyond_affine(trace, datum, s)
+        def all_of_it(s, facets):
+            return _beyond_affine(trace.only(facets), datum, s)
 
-        def without_bubble(s):
-            return all_of_it(s) - 4.0 * s * (1.0 - s) * middle
+        def without_bubble(s, facets):
+            return all_of_it(s, facets) - 4.0 * s * (1.0 - s) * middle[facets]
 
         whole = lift(trace, by_values(all_of_it), datum.field, size)
         rest = lift(trace, by_values(without_bubble), datum.field, size)

@@ -35,13 +35,14 @@ class GivenFlux:
         self.integral = values @ weights
         self.tilt = 3.0 * (values @ (weights * (1.0 - 2.0 * s)))
 
-    def _at(self, s):
-        """The flux times the length of the facet, (m, q)."""
-        values = sampled(self._topology, self.trace, self._datum, s)
-        return values * self.trace.length[:, None]
+    def _at(self, s, facets=slice(None)):
+        """The flux times the length of some facets, (m, q)."""
+        trace = self.trace.only(facets)
+        return sampled(self._topology, trace, self._datum, s) * trace.length[:, None]
 
-    def _remainder(self, s):
-        return self._at(s) - self.integral[:, None] - self.tilt[:, None] * (1.0 - 2.0 * s)
+    def _remainder(self, s, facets):
+        integral, tilt = self.integral[facets, None], self.tilt[facets, None]
+        return self._at(s, facets) - integral - tilt * (1.0 - 2.0 * s)
 
     def oscillation(self):
         """The norm of a field in each triangle whose flux is the remainder, (m,); weighted."""

@@ -18,9 +18,12 @@ from signorini.exceptions import SceneError
 
 _PANELS = (2, 4, 8)  # of a facet
 _POINTS = 6  # of each panel
-# What the finest panels add to what those before them added: 1 for a root, 2 for a jump.
-_DIVERGES = 0.95
-_NOTICED = 0.05  # of the whole
+_NOTICED = 1e-5  # of the whole: what halving all panels may change before they are looked into
+_CONVERGED = 1e-7  # of the whole: what halving one panel may change
+_SAFETY = 4.0  # times what halving changed is added
+_DEPTH = 30  # how often a panel is halved where that changes more
+# What ten halvings add to what the ten before them added: about 1 for a root, 1000 for a jump.
+_DIVERGES = 0.5
 _ROUNDING = 1e-10  # of a datum, in its derivative in units of a facet
 
 
@@ -38,8 +41,8 @@ def lift(trace, remainder, field, size):
     ----------
     trace : Trace
     remainder : callable
-        From panels to the function and its derivative by s at their points, see `by_values` and
-        `by_slopes`.
+        From panels and the places of some facets to the panels, the function and its derivative by
+        s at their points, see `by_values` and `by_slopes`.
     field : str
         Name of the datum, for the message.
     size : float
@@ -56,65 +59,128 @@ def lift(trace, remainder, field, size):
     """
     if not trace.facets.size:
         return Lift(np.zeros(0), np.zeros(0))
-    coarse, middle, fine = (_squares(trace, remainder, Panels(count)) for count in _PANELS)
-    before = np.abs(middle.gradient - coarse.gradient)
-    last = np.abs(fine.gradient - middle.gradient)
+    every = slice(None)
+    coarse, middle, fine = (
+        _shares(trace, *remainder(Panels(np.linspace(0.0, 1.0, count + 1)), every))
+        for count in _PANELS
+    )
+    gradient, value = fine.gradient.sum(axis=1), fine.value.sum(axis=1)
+    changed = _changes(fine, middle)
     rounding = (_ROUNDING * size) ** 2 * trace.area * (trace.slopes**2).max(axis=(0, 1))
-    noticed = (last > _NOTICED * fine.gradient) & (last > rounding)
-    diverges = noticed & (last > _DIVERGES * before)
-    if diverges.any():
-        x, y = trace.middle[:, np.argmax(diverges)]
-        raise SceneError(
-            f"{field}: has no square integrable derivative along the facet at ({x:.6g}, {y:.6g}), "
-            "as far as quadrature can tell, so that nothing lifts it; smooth it there, or put a "
-            "vertex where it has a kink"
-        )
-    ratio = np.minimum(last / np.maximum(before, np.finfo(float).tiny), _DIVERGES)
-    left = last * np.maximum(ratio / (1.0 - ratio), 1.0)  # what finer panels would add
-    return Lift(fine.gradient + left, fine.value)
+    noticed = np.maximum(changed, _changes(middle, coarse)) > _NOTICED * gradient + rounding
+    gradient += _SAFETY * changed
+    for k in np.flatnonzero(noticed):
+        found = _adaptively(trace.only([k]), lambda panels, k=k: remainder(panels, [k]))
+        if found is None:
+            x, y = trace.middle[:, k]
+            raise SceneError(
+                f"{field}: has no square integrable derivative along the facet at ({x:.6g}, "
+                f"{y:.6g}), as far as quadrature can tell, so that nothing lifts it; smooth it "
+                "there, or put a vertex where it jumps"
+            )
+        gradient[k], value[k] = found
+    return Lift(gradient, value)
+
+
+def _changes(fine, coarse):
+    """What halving the panels changed, their sizes added up, (m,)."""
+    pairs = fine.gradient.reshape(len(fine.gradient), -1, 2).sum(axis=2)
+    return np.abs(pairs - coarse.gradient).sum(axis=1)
+
+
+def _adaptively(facet, remainder):
+    """The squares on one facet, its panels halved where that changes them.
+
+    A kink costs a few halvings of the panel that holds it; what is left of an inner root is added
+    as the rest of a geometric series.
+
+    Returns
+    -------
+    gradient, value : float
+        Or None where the first one diverges.
+    """
+    breaks, totals = np.linspace(0.0, 1.0, _PANELS[-1] + 1), []
+    for _ in range(_DEPTH):
+        middles = 0.5 * (breaks[1:] + breaks[:-1])
+        halved = np.sort(np.concatenate([breaks, middles]))
+        own = _shares(facet, *remainder(Panels(breaks)))
+        fine = _shares(facet, *remainder(Panels(halved)))
+        pairs = fine.gradient.reshape(-1, 2).sum(axis=1)
+        off = np.abs(pairs - own.gradient[0])
+        totals.append(float(pairs.sum()))
+        still = off > _CONVERGED * totals[-1]
+        if not still.any():
+            return totals[-1] + _SAFETY * float(off.sum()), float(fine.value.sum())
+        breaks = np.sort(np.concatenate([breaks, middles[still]]))
+    # Where a singular point lies within its panel changes with each halving: many are compared.
+    third = _DEPTH // 3
+    before = totals[-1 - third] - totals[-1 - 2 * third]
+    last = totals[-1] - totals[-1 - third]
+    ratio = last / before if before > 0.0 else np.inf
+    if ratio > _DIVERGES:
+        return None
+    rest = max(last, 0.0) * max(ratio, 0.0) / (1.0 - ratio)
+    return totals[-1] + _SAFETY * float(off.sum()) + rest, float(fine.value.sum())
 
 
 class Panels:
-    """A facet cut into equal panels, each with the points of Gauss and Lobatto.
+    """A facet cut into panels, each with the points of Gauss and Lobatto.
+
+    Parameters
+    ----------
+    breaks : ndarray, shape (count + 1,)
+        Where they begin and end, from 0 to 1, increasing.
 
     Attributes
     ----------
     s, weights : ndarray, shape (count * p,)
         Points on [0, 1], panel by panel, and weights.
+    count : int
     """
 
-    def __init__(self, count):
+    def __init__(self, breaks):
         nodes, weights, self._derivative = lobatto(_POINTS)
-        self._count = count
-        starts = np.arange(count) / count
-        self.s = (starts[:, None] + nodes / count).ravel()
-        self.weights = np.tile(weights / count, count)
+        self._widths = np.diff(breaks)
+        self.count = self._widths.size
+        self.s = (breaks[:-1, None] + self._widths[:, None] * nodes).ravel()
+        self.weights = (self._widths[:, None] * weights).ravel()
 
     def derivative(self, values):
         """By s, of what is given at the points, (m, count * p)."""
-        return self._count * self._on_panels(values, self._derivative)
+        slopes = self._cut(values) @ self._derivative.T / self._widths[:, None]
+        return slopes.reshape(values.shape)
 
     def integral(self, values):
         """From 0 to each point, of what is given at them, (m, count * p)."""
         fixed = self._derivative.copy()
         fixed[0] = np.eye(_POINTS)[0]  # a derivative and a value at the start say all
-        rates = values.reshape(len(values), self._count, _POINTS) / self._count
+        rates = self._cut(values) * self._widths[:, None]
         rates = np.concatenate([np.zeros_like(rates[..., :1]), rates[..., 1:]], axis=-1)
         within = rates @ np.linalg.inv(fixed).T
         before = np.cumsum(within[..., -1], axis=-1) - within[..., -1]
         return (within + before[..., None]).reshape(values.shape)
 
-    def _on_panels(self, values, matrix):
-        cut = values.reshape(len(values), self._count, _POINTS)
-        return (cut @ matrix.T).reshape(values.shape)
+    def sums(self, values):
+        """Of weighted values, panel by panel, (m, count)."""
+        return self._cut(values * self.weights).sum(axis=-1)
+
+    def _cut(self, values):
+        return values.reshape(len(values), self.count, _POINTS)
 
 
 def by_values(function):
-    """A `lift` of a function given by its values: from s, shape (q,), to (m, q)."""
+    """A `lift` of a function given by its values.
 
-    def found(panels):
-        values = function(panels.s)
-        return values, panels.derivative(values)
+    Parameters
+    ----------
+    function : callable
+        From fractions s, shape (q,), and the places of some of the facets to values of shape (m,
+        q).
+    """
+
+    def found(panels, facets):
+        values = function(panels.s, facets)
+        return panels, values, panels.derivative(values)
 
     return found
 
@@ -122,21 +188,21 @@ def by_values(function):
 def by_slopes(function):
     """The same of one given by its derivative; it is zero at the start of each facet."""
 
-    def found(panels):
-        slopes = function(panels.s)
-        return panels.integral(slopes), slopes
+    def found(panels, facets):
+        slopes = function(panels.s, facets)
+        return panels, panels.integral(slopes), slopes
 
     return found
 
 
-def _squares(trace, remainder, panels):
-    """The integrals by so many panels a facet."""
-    r, slope = remainder(panels)
+def _shares(trace, panels, r, slope):
+    """The integrals over each panel, `Lift` of arrays of shape (m, count)."""
     i, j = trace.slopes[..., None]
     both = i + j
     gradient = both * r + slope * (j - panels.s * both)
-    square = (gradient**2).sum(axis=0) @ panels.weights
-    return Lift(trace.area * square, 0.5 * trace.area * (r**2 @ panels.weights))
+    square = panels.sums((gradient**2).sum(axis=0))
+    area = trace.area[:, None]
+    return Lift(area * square, 0.5 * area * panels.sums(r**2))
 
 
 def lobatto(count):

@@ -7,7 +7,10 @@ from signorini.certificate.bubbles import TOLERANCE
 from signorini.certificate.certify import certify_level
 from signorini.solvers import solve
 
-EXACT = ("corner", "punch", "smooth", "biactive", "uniform-load")
+EXACT = (
+    *("corner", "punch", "smooth", "biactive", "uniform-load"),
+    *("cascavita-chouly-ern", "hansbo-larson", "hansbo-larson-corner"),
+)
 SLACK = 1e-9  # uniform-load's bound of P1 is the error itself
 
 

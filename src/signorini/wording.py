@@ -65,8 +65,11 @@ def _beginning(value, deep=4):
     return value if isinstance(value, int | float | None) else "..."
 
 
+_FEW = 12  # names beside the nearest one
+
+
 def nearest(word, known):
-    """A hint: the nearest of the known words, and the first 40 of them.
+    """A hint: the nearest of the known words, and the first of them, fewer where one is near.
 
     Parameters
     ----------
@@ -85,7 +88,9 @@ def nearest(word, known):
     """
     known = list(known)
     near = difflib.get_close_matches(str(word)[:200], known, n=1, cutoff=0.5)
-    return (f"did you mean {near[0]}? " if near else "") + f"known: {listed(known)}"
+    if not near:
+        return f"known: {listed(known)}"
+    return f"did you mean {near[0]}? known: {listed(known, most=_FEW)}"
 
 
 def listed(names, most=40):

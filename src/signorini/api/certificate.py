@@ -81,5 +81,6 @@ def _exactly(problem: Problem, element: str) -> Problem:
     """The problem of an element on the same mesh, of the same data, its load integrated exactly."""
     from signorini.fem.problem import discretize_on
 
+    assert problem.data is not None  # `certify` refuses a problem without data
     statement = ProblemStatement({}, {}, problem.data, "exact")
     return discretize_on(problem.mesh, element, statement)

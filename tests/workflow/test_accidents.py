@@ -319,7 +319,7 @@ def test_a_killed_snakemake_is_recovered_as_the_readme_says(small, built_small):
     again = small.build(AFTER)
     assert again.jobs["errors"] == 1
     assert small.results() == built_small.results()
-    assert "snakemake --unlock" in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "snakemake --unlock" in (ROOT / "docs/results.md").read_text(encoding="utf-8")
 
 
 def test_a_second_run_is_refused_and_does_the_first_no_harm(small, built_small):

@@ -1,7 +1,7 @@
 # `snakemake adaptive`: guaranteed errors on adaptive and on uniform meshes. Runs are measured one at a time.
 
 ADAPTIVE = f"{STUDIES}/adaptive"
-ADAPTIVE_SCENES = ["l-shape", "notch", "inclusion", "corner", "many-contacts", "paper"]
+ADAPTIVE_SCENES = ["l-shape", "notch", "inclusion", "corner", "many-contacts", "paper-exact"]
 ADAPTIVE_DOFS = {"adaptive": 5000 if QUICK else 70000, "uniform": 20000 if QUICK else 230000}
 
 

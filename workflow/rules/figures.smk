@@ -58,7 +58,7 @@ rule field:
 rule contact_line:
     input:
         library("contact-line"),
-        scene=ancient(scene_file),
+        scene=ancient(exact_scene_file),
         mesh=mesh_file,
         solutions=finest_of_each,
     output:

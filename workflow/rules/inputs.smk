@@ -219,6 +219,12 @@ def exact_statement(wildcards):
     return as_json(asked.statement if asked.truth["kind"] == "exact" else None)
 
 
+def exact_scene_file(wildcards):
+    """The scene, where its exact solution is tabulated."""
+    exact = scene(wildcards.scene).truth["kind"] == "exact"
+    return [scene_file(wildcards)] if exact else []
+
+
 def exact_option(wildcards, input):
     """Option of the contact line for an exact truth, where there is one."""
     exact = scene(wildcards.scene).truth["kind"] == "exact"

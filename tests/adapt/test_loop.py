@@ -1,6 +1,7 @@
 """The adaptive loop: its bound is one, it falls at the best rate, and it ends for a reason."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,9 +9,12 @@ import pytest
 import signorini
 from signorini.adapt.loop import Goal, adaptive_steps
 from signorini.adapt.record import Record, key_of, read_picture, rows_of, write_picture
+from signorini.commands.program import main
 from signorini.errors.exact import ExactErrors
 from signorini.exceptions import StorageError
 from signorini.mesh.check import check_triangulation
+
+ROOT = Path(__file__).parents[2]
 
 
 def scene_of(name):
@@ -168,3 +172,29 @@ def test_rows_and_pictures_tell_of_the_step(tmp_path, l_shape):
     picture = read_picture(tmp_path / "picture.npz")
     assert picture["binding"].shape[2] < picture["contact"].shape[2]
     assert np.all(picture["contact"][1] == 0)
+
+
+def test_another_mesh_under_the_same_name_is_another_question(tmp_path):
+    for folder in ("scenes", "meshes"):
+        (tmp_path / folder).mkdir()
+    text = (ROOT / "config/meshes/gasket.msh").read_text(encoding="utf-8")
+    scene = tmp_path / "scenes/gasket.yaml"
+    scene.write_text((ROOT / "config/scenes/gasket.yaml").read_text(encoding="utf-8"), "utf-8")
+    moved = text.replace("6 0.5 0.8 0", "6 0.5 0.81 0")
+    assert moved != text
+    keys = []
+    for content in (text, text, moved):
+        (tmp_path / "meshes/gasket.msh").write_text(content, encoding="utf-8")
+        keys.append(key_of(signorini.load_scene(scene), Goal(start=1)))
+    assert keys[0] == keys[1] != keys[2]
+
+
+def test_one_line_of_a_scene_is_enough(tmp_path, capsys):
+    """`adapt: {bound: ...}` begins on the scene's coarsest level, whatever that is."""
+    text = (ROOT / "config/scenes/l-shape.yaml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.yaml"
+    path.write_text(
+        text.replace("[4, 8, 16, 32]", "[8, 16, 32]") + "\nadapt: {bound: 0.5}\n", "utf-8"
+    )
+    assert main(["adapt", str(path), "-o", str(tmp_path / "run")]) == 0
+    assert "the bound is met" in capsys.readouterr().out

@@ -7,6 +7,7 @@ from bisection import bisected, corner, corner_and_side, l_shape, towards
 from builders import delaunay, grid
 from signorini.exceptions import MeshError
 from signorini.mesh.bisection import bisect, bisectable, over_ancestors
+from signorini.mesh.boundary import part_key
 from signorini.mesh.check import check_triangulation
 from signorini.mesh.triangulation import Triangulation
 
@@ -159,3 +160,14 @@ def test_errors_against_a_finer_mesh_are_refused_on_bisected_ones():
     mesh = bisect(l_shape(), np.arange(24) == 3)
     with pytest.raises(MeshError, match="locally refined: use an exact truth or a certificate"):
         mesh.children(np.zeros((1, mesh.number_of_triangles)))
+
+
+def test_named_parts_of_the_boundary_are_inherited():
+    """Data may be given part by part, so that a part that is lost would be a condition lost."""
+    root = l_shape()
+    named = Triangulation(root.p, root.t, root.ends | {part_key("floor"): root.ends["contact"]})
+    for start, part, label in ((named, "floor", "contact"), (grid(4), "top", "dirichlet")):
+        mesh = chain(start, steps=5)[-1]
+        expected = mesh.boundary_facets(label)
+        assert expected.size > 4
+        np.testing.assert_array_equal(mesh.boundary_facets(part_key(part)), expected)

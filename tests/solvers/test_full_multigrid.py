@@ -81,6 +81,15 @@ def test_bounds_from_above_and_units_are_taken_over():
     assert scaled.discretisation_error == np.ldexp(rough.discretisation_error, 60)
 
 
+def test_a_large_constant_in_the_data_costs_no_digits():
+    exact = signorini.load_scene("config/scenes/punch.yaml").problem_statement
+    problem = discretize(exact, "P1", 32)
+    plain, shifted = roughly(problem), roughly(problem.shifted(-(2.0**30)))
+    assert shifted.status == "discretisation"
+    assert shifted.algebraic_error == pytest.approx(plain.algebraic_error, rel=1e-3)
+    np.testing.assert_allclose(shifted.u - 2.0**30, plain.u, atol=1e-6)
+
+
 def test_other_routes_solve_to_the_last_bit():
     exact = signorini.load_scene("config/scenes/corner.yaml").problem_statement
     problem = discretize(exact, "P1", 16)

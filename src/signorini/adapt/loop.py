@@ -6,7 +6,7 @@ in equilibrium. The bound that ends the loop, and the marks, are those of one of
 
 import logging
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -79,7 +79,7 @@ class Step:
     certificates: dict
     seconds: dict
     marked: np.ndarray | None = None
-    reason: str = field(default="")
+    reason: str = ""
 
 
 def adaptive_steps(statement, goal, marks=()):
@@ -120,7 +120,7 @@ def adaptive_steps(statement, goal, marks=()):
     refine_seconds, solutions = time.perf_counter() - began, None
     number = len(marks)
     while True:
-        step = _solved(exact, goal, mesh, number, solutions, refine_seconds)
+        step = _solved(exact, mesh, number, solutions, refine_seconds)
         if not (reason := _reason(step, goal, time.perf_counter() - began)):
             marked = _marked(step, goal)
             start = time.perf_counter()
@@ -134,7 +134,7 @@ def adaptive_steps(statement, goal, marks=()):
         solutions, number = step.solutions, number + 1
 
 
-def _solved(statement, goal, mesh, number, before, refine_seconds):
+def _solved(statement, mesh, number, before, refine_seconds):
     """Solve both elements on a mesh and certify them."""
     _log.info("step %d: %d triangles, solving", number, mesh.number_of_triangles)
     start = time.perf_counter()

@@ -1,5 +1,6 @@
 """What is kept of an adaptive run, so that it can be tabulated, drawn, and gone on with."""
 
+import hashlib
 import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -94,7 +95,7 @@ class Record:
 
 
 def key_of(scene, goal):
-    """The question that a run answers, as text.
+    """The question that a run answers, as text: the scene, the first mesh, and the goal.
 
     Parameters
     ----------
@@ -106,7 +107,10 @@ def key_of(scene, goal):
     str
     """
     chosen = {name: value for name, value in asdict(goal).items() if name not in _LIMITS}
-    return json.dumps([scene.statement, chosen], sort_keys=True)
+    mesh = scene.problem_statement.triangulations.level(goal.start)
+    arrays = (np.ascontiguousarray(array).tobytes() for array in (mesh.p, mesh.t))
+    digest = hashlib.sha256(b"".join(arrays)).hexdigest()  # a mesh file may have changed
+    return json.dumps([scene.statement, chosen, digest], sort_keys=True)
 
 
 def rows_of(step, exact=None):

@@ -62,11 +62,12 @@ def run(arguments):
     """Run, and write steps.csv, seconds.csv, run.npz, picture.npz and solution.npz."""
     scene = scene_of(arguments.scene)
     goal = goal_of(scene, arguments)
-    folder, key = arguments.output, key_of(scene, goal)
-    record = Record(key) if arguments.restart else Record.read(folder, key)
+    folder = arguments.output
     with naming(scene.source):
         statement = scene.problem_statement
         statement.check()
+        key = key_of(scene, goal)
+        record = Record(key) if arguments.restart else Record.read(folder, key)
         if arguments.warm:
             next(adaptive_steps(statement, goal))
         for step in adaptive_steps(statement, goal, record.marks):
@@ -98,8 +99,8 @@ def goal_of(scene, arguments):
     """
     names = ("bound", "element", "theta", "start", "max_dofs", "max_seconds")
     given = {name: getattr(arguments, name) for name in names}
-    chosen = scene.document.get("adapt", {"start": scene.levels[0]})
-    chosen = chosen | {name: value for name, value in given.items() if value is not None}
+    chosen = {"start": scene.levels[0]} | scene.document.get("adapt", {})
+    chosen |= {name: value for name, value in given.items() if value is not None}
     goal = replace(Goal(), **chosen, uniform=arguments.uniform)
     if not 0.0 < goal.theta <= 1.0:
         raise SceneError(f"--theta {goal.theta:g}: give a share above 0, at most 1")

@@ -19,7 +19,23 @@ def contact_length(problem, solution):
     float
         Unit of length.
     """
-    pieces = binding_pieces(problem.mesh, solution)
+    return binding_length(problem.mesh, solution)
+
+
+def binding_length(mesh, solution):
+    """As `contact_length`, of a solution on its mesh.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    solution : StoredSolution
+
+    Returns
+    -------
+    float
+        Unit of length.
+    """
+    pieces = binding_pieces(mesh, solution)
     return float(np.hypot(*(pieces[:, 1] - pieces[:, 0]).T).sum())
 
 

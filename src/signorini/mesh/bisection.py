@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import LABELS, part_key
+from signorini.mesh.boundary import LABELS, SIDES, part_key
 from signorini.mesh.curved import curves_of, followed
 from signorini.mesh.triangulation import Triangulation
 
@@ -84,7 +84,7 @@ def bisectable(mesh):
     if isinstance(mesh, Bisected):
         return mesh
     p, t = np.asarray(mesh.p), np.asarray(mesh.t)
-    labels = (*LABELS, *map(part_key, curves_of(mesh)))
+    labels = getattr(mesh, "ends", (*LABELS, *map(part_key, SIDES)))
     ends = {label: mesh.facet_ends(mesh.boundary_facets(label)) for label in labels}
     turned = _longest_first(p, t)
     subdomains = getattr(mesh, "subdomains", {})

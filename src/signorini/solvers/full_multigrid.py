@@ -20,9 +20,8 @@ import numpy as np
 
 from signorini.solvers.cycle import Cycle
 from signorini.solvers.dot import dot
-from signorini.solvers.hierarchy import build_hierarchy
 from signorini.solvers.level_solver import LevelSolver
-from signorini.solvers.multigrid import Obstacle, prolong
+from signorini.solvers.multigrid import Obstacle, levels_and_obstacles, prolong
 from signorini.solvers.route_result import RouteResult
 from signorini.solvers.solution import largest
 from signorini.work import count, counting
@@ -58,14 +57,11 @@ def solve_to_discretisation(problem, guess=None):
     >>> result.algebraic_error < 0.1 * result.discretisation_error
     True
     """
-    levels = build_hierarchy(problem)
-    if len(levels) < 2 or levels[0].robust or not problem.fixed.size:
+    if not problem.fixed.size:
         return None
-    obstacles = [
-        Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)
-    ]
-    for level in levels[:-1]:
-        obstacles.append(obstacles[-1].restricted(level))
+    levels, obstacles = levels_and_obstacles(problem)
+    if len(levels) < 2 or levels[0].robust:
+        return None
     with counting():  # work on coarser levels is not that of the finest
         u, active = _coarsest(levels[-1:], obstacles[-1])
         for k in range(len(levels) - 2, 0, -1):
@@ -117,15 +113,20 @@ class _Descent:
         The residual b - A u.
     decreases : list of float
         What each step lowered the energy by.
+    cycle : Cycle or None
+        With the unknowns `constrained`, numbers, held; made when first needed.
+    last : float
+        The largest change of u in the last step.
     """
 
     levels: list
     obstacle: Obstacle
     u: np.ndarray
     active: np.ndarray
-    r: np.ndarray = None
+    r: np.ndarray | None = None
     decreases: list = field(default_factory=list)
-    cycle: Cycle = None
+    cycle: Cycle | None = None
+    constrained: np.ndarray | None = None
     last: float = 0.0
 
     def __post_init__(self):
@@ -138,7 +139,7 @@ class _Descent:
         count(products=1)
 
     def step(self):
-        """Let go what pulls, take one cycle, and put onto the obstacle what fell below it."""
+        """Release dofs that pull, take one cycle, and put those below the obstacle onto it."""
         pulls = self.active & (self.r[self.obstacle.contact] > 0.0)
         if self.cycle is None or pulls.any():
             self.active = self.active & ~pulls

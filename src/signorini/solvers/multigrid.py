@@ -72,17 +72,7 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
     >>> result.accuracy < 1e-13, int(result.active.sum())
     (True, 10)
     """
-    check_memory(
-        problem.mesh.number_of_triangles,
-        problem.finite_element.facts.multigrid_bytes,
-        "a mesh for solver.method multigrid",
-    )
-    levels = build_hierarchy(problem)
-    obstacles = [
-        Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)
-    ]
-    for level in levels[:-1]:
-        obstacles.append(obstacles[-1].restricted(level))
+    levels, obstacles = levels_and_obstacles(problem)
     u = np.zeros(levels[-1].A.shape[0])
     active = obstacles[-1].b[obstacles[-1].contact] <= 0.0
     with counting():  # work on coarser levels is not that of the finest
@@ -100,6 +90,37 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
             ErrorEstimates(tolerance * np.ptp(solver.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0)
         )
     return _solve_to_rounding(problem, solver)
+
+
+def levels_and_obstacles(problem):
+    """The levels of a problem, and what their unknowns obey, finest first.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    levels : list of Level
+    obstacles : list of Obstacle
+
+    Raises
+    ------
+    MeshError
+        If the memory is too small, or the meshes do not nest.
+    """
+    check_memory(
+        problem.mesh.number_of_triangles,
+        problem.finite_element.facts.multigrid_bytes,
+        "a mesh for solver.method multigrid",
+    )
+    levels = build_hierarchy(problem)
+    obstacles = [
+        Obstacle(problem.b, problem.contact, problem.lower, problem.fixed, problem.fixed_values)
+    ]
+    for level in levels[:-1]:
+        obstacles.append(obstacles[-1].restricted(level))
+    return levels, obstacles
 
 
 def _solve_to_rounding(problem, solver):

@@ -68,77 +68,26 @@ def solve(problem, method="auto", guess=None, accuracy="full"):
     guess = checked_guess(problem, guess)
     method, reason = choose_route(problem, method)
     check_solvable(problem)
-    solved = _solved_roughly if accuracy == "discretisation" and method == "multigrid" else _solved
     if problem.upper:
-        return solved(mirrored(problem), method, reason, guess).mirrored(problem)
-    return solved(problem, method, reason, guess)
+        return _solved(mirrored(problem), method, reason, guess, accuracy).mirrored(problem)
+    return _solved(problem, method, reason, guess, accuracy)
 
 
-def _solved_roughly(problem, method, reason, guess):
-    """The solution to discretisation accuracy; to the last bit where that cannot be told."""
-    from signorini.solvers.full_multigrid import solve_to_discretisation
-
-    exponent = _exponent(problem)
-    scaled = problem.scaled(-exponent)
-    check_symmetric(scaled.A)
-    result = solve_to_discretisation(scaled, guess)
-    if result is None:
-        reason = f"{reason}; its discretisation error cannot be told"
-        return _solved(problem, method, reason, guess)
-    residual, _ = kkt_residual(scaled, result.u)
-    with np.errstate(over="ignore"):
-        u, multiplier = (np.ldexp(values, exponent) for values in (result.u, result.multiplier))
-        algebraic = float(np.ldexp(result.algebraic_error, exponent))
-        discretisation = float(np.ldexp(result.discretisation_error, exponent))
-    _check_size(u, multiplier)
-    return Solution(
-        u=u,
-        multiplier=multiplier,
-        active=result.active,
-        residual=residual,
-        accuracy=result.accuracy,
-        multiplier_accuracy=result.multiplier_accuracy,
-        undecided=result.undecided,
-        status="discretisation",
-        iterations=result.iterations,
-        method=method,
-        reason=reason,
-        constant=0.0,
-        deviation=u,
-        problem=problem,
-        algebraic_error=algebraic,
-        discretisation_error=discretisation,
-    )
-
-
-def _check_size(u, multiplier):
-    """Refuse a solution that doubles cannot hold."""
-    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
-        raise SolverError(
-            "data: the solution exceeds the largest number, 1.8e308; scale the data down"
-        )
-
-
-def _solved(problem, method, reason, guess):
+def _solved(problem, method, reason, guess, wanted):
     """The solution of a problem whose constraint is from below."""
     exponent = _exponent(problem)
     scaled = problem.scaled(-exponent)
     if method != "fourier":
         check_symmetric(scaled.A)
-    shifted, constant, (result, method, reason) = _solve_shifted(scaled, method, reason, guess)
+    shifted, constant, (result, method, reason) = _solve_shifted(
+        scaled, method, reason, guess, wanted
+    )
     u = result.u
     active, c = result.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
     accuracy = _accuracy(result, constant)
-    if not accuracy <= USELESS_ACCURACY:
-        raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
-    status = _status(residual, accuracy, result)
-    if status == "failed":
-        raise SolverError(
-            f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
-            f"{_causes(problem)}, or try another solver.method"
-        )
+    status = _checked_status(problem, method, residual, accuracy, result)
     multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
@@ -159,10 +108,24 @@ def _solved(problem, method, reason, guess):
         constant=float(np.ldexp(constant, exponent)),
         deviation=deviation,
         problem=problem,
+        algebraic_error=_unscaled(result.algebraic_error, exponent),
+        discretisation_error=_unscaled(result.discretisation_error, exponent),
     )
 
 
-def _solve_shifted(problem, method, reason, guess):
+def _unscaled(error, exponent):
+    return None if error is None else float(np.ldexp(error, exponent))
+
+
+def _check_size(u, multiplier):
+    """Refuse a solution that doubles cannot hold."""
+    if not (np.isfinite(u).all() and np.isfinite(multiplier).all()):
+        raise SolverError(
+            "data: the solution exceeds the largest number, 1.8e308; scale the data down"
+        )
+
+
+def _solve_shifted(problem, method, reason, guess, wanted):
     """The problem counted from a constant, that constant, and the result for it.
 
     Where data do not show that all of the body stays near a constant, far from its obstacle, a
@@ -175,7 +138,7 @@ def _solve_shifted(problem, method, reason, guess):
     shifted = problem.shifted(constant)
     far = _constant(problem, near=[problem.fixed_values])
     try:
-        result = _solve_or_fall_back(shifted, method, reason, guess)
+        result = _solve_or_fall_back(shifted, method, reason, guess, wanted)
         varies = np.ptp(result[0].u) > _NEARLY_CONSTANT * largest(result[0].u)
     except SolverError:
         if constant or not far:
@@ -184,7 +147,7 @@ def _solve_shifted(problem, method, reason, guess):
     if constant or varies or not far:
         return shifted, constant, result
     shifted = problem.shifted(far)
-    return shifted, far, _solve_or_fall_back(shifted, method, reason, None)
+    return shifted, far, _solve_or_fall_back(shifted, method, reason, None, wanted)
 
 
 def _constant_solution(problem):
@@ -202,19 +165,35 @@ def _constant_solution(problem):
     return RouteResult(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
 
 
-def _solve_or_fall_back(problem, method, reason, guess):
+def _solve_or_fall_back(problem, method, reason, guess, wanted):
     """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
     finds.
     """
+    told = reason
+    if wanted == "discretisation" and method == "multigrid":
+        rough = _solve_roughly(problem, guess)
+        if rough is not None:
+            return rough, method, reason
+        told = f"{reason}; its discretisation error cannot be told"
     try:
-        return _run_route(problem, method, guess), method, reason
+        return _run_route(problem, method, guess), method, told
     except SolverError as error:
         larger = not fits(
             problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
         )
         if method != "multigrid" or reason == REQUESTED or larger:
             raise
-        return _run_route(problem, "direct", guess), "direct", f"{reason}; but {error}"
+        return _run_route(problem, "direct", guess), "direct", f"{told}; but {error}"
+
+
+def _solve_roughly(problem, guess):
+    """What multigrid finds to discretisation accuracy, or None."""
+    from signorini.solvers.full_multigrid import solve_to_discretisation
+
+    try:
+        return solve_to_discretisation(problem, guess)
+    except (SolverError, np.linalg.LinAlgError, FloatingPointError):
+        return None
 
 
 def _run_route(problem, method, guess):
@@ -229,6 +208,21 @@ def _causes(problem):
     from signorini.solvers.conditioning import accuracy_loss_causes
 
     return accuracy_loss_causes(problem)
+
+
+def _checked_status(problem, method, residual, accuracy, result):
+    """That of a solution; an error where it is none."""
+    if result.algebraic_error is not None:
+        return "discretisation"
+    if not accuracy <= USELESS_ACCURACY:
+        raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
+    status = _status(residual, accuracy, result)
+    if status == "failed":
+        raise SolverError(
+            f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
+            f"{_causes(problem)}, or try another solver.method"
+        )
+    return status
 
 
 def _status(residual, accuracy, result):

@@ -1,8 +1,7 @@
 """What a sweep tells of the contact part of each solution."""
 
-import numpy as np
-
-from signorini.fem.contact_line import binding_pieces, contact_rows
+from signorini.fem.contact_line import critical_places
+from signorini.fem.functionals import binding_length
 
 QUANTITIES = ("resultant", "contact_length", "critical_count", "first_critical", "last_critical")
 
@@ -24,12 +23,10 @@ def contact_quantities(mesh, solution):
         ``first_critical``, ``last_critical``: the arc length of the first and of the last one along
         the contact part, unit of length; None where there is none.
     """
-    pieces = binding_pieces(mesh, solution)
-    marks = [row["critical"] for row in contact_rows(mesh, solution)]
-    places = [place for place in marks if place is not None]
+    places = critical_places(mesh, solution)[0].tolist()
     return {
         "resultant": float(solution.force.sum()),
-        "contact_length": float(np.hypot(*(pieces[:, 1] - pieces[:, 0]).T).sum()),
+        "contact_length": binding_length(mesh, solution),
         "critical_count": len(places),
         "first_critical": min(places, default=None),
         "last_critical": max(places, default=None),

@@ -131,3 +131,21 @@ def test_jumps_and_inner_roots_are_refused_wherever_they_are(power, seed):
 
     with pytest.raises(SceneError, match="r: has no square integrable derivative along the facet"):
         lift(TRACE, tile(root), "r", 1.0)
+
+
+@pytest.mark.parametrize("end", [0.0, 1.0])
+def test_what_a_datum_is_at_the_end_of_a_facet_alone_does_not_matter(end):
+    """There a coefficient in layers may already be that of the next facet."""
+    smooth = lift(TRACE, by_slopes(lambda s, facets: rows(np.sin(6 * s), facets)), "g", 1.0)
+    spiked = lift(
+        TRACE,
+        by_slopes(lambda s, facets: rows(np.where(s == end, 90.0, np.sin(6 * s)), facets)),
+        "g",
+        90.0,
+    )
+    assert np.all(spiked.gradient >= smooth.gradient * (1 - 1e-5))
+    assert np.all(spiked.gradient <= 1.01 * smooth.gradient)
+
+
+def rows(values, facets):
+    return np.tile(values, (TRACE.facets[facets].size, 1))

@@ -116,10 +116,11 @@ def _adaptively(facet, remainder):
     third = _DEPTH // 3
     before = totals[-1 - third] - totals[-1 - 2 * third]
     last = totals[-1] - totals[-1 - third]
-    ratio = last / before if before > 0.0 else np.inf
-    if ratio > _DIVERGES:
-        return None
-    rest = max(last, 0.0) * max(ratio, 0.0) / (1.0 - ratio)
+    rest = 0.0
+    if last > _CONVERGED * totals[-1]:
+        if last > _DIVERGES * before:
+            return None
+        rest = last * last / (before - last)
     return totals[-1] + _SAFETY * float(off.sum()) + rest, float(fine.value.sum())
 
 

@@ -11,7 +11,7 @@ from signorini.adapt.loop import Goal, adaptive_steps
 from signorini.adapt.record import Record, key_of, read_picture, rows_of, write_picture
 from signorini.commands.program import main
 from signorini.errors.exact import ExactErrors
-from signorini.exceptions import StorageError
+from signorini.exceptions import MeshError, StorageError
 from signorini.mesh.check import check_triangulation
 
 ROOT = Path(__file__).parents[2]
@@ -87,6 +87,7 @@ def test_every_solution_is_solved_and_the_contact_set_is_carried_over(l_shape):
         ({"bound": 0.3}, "the bound is met"),
         ({"max_dofs": 300}, "degrees of freedom, more than 300"),
         ({"max_seconds": 0.0}, "the limit of 0 s is reached"),
+        ({"max_memory": 1e-4}, "GB of memory, more than 0.0001"),
     ],
 )
 def test_the_loop_says_why_it_ends(goal, reason):
@@ -95,6 +96,21 @@ def test_the_loop_says_why_it_ends(goal, reason):
     assert [step.reason for step in steps[:-1]] == [""] * (len(steps) - 1)
     if "bound" in goal:
         assert steps[-1].certificates["P1"].upper <= 0.3 < steps[-2].certificates["P1"].upper
+
+
+def test_a_mesh_that_this_machine_cannot_hold_is_not_begun(monkeypatch):
+    monkeypatch.setattr("signorini.adapt.loop._BYTES", 10**12)
+    assert "of memory, but there are" in run("l-shape")[-1].reason
+
+
+def test_where_no_finer_mesh_can_be_made_the_loop_ends(monkeypatch):
+    def out_of_numbers(mesh, marked):
+        raise MeshError("mesh: a facet at (1, 1) has no point between its ends")
+
+    monkeypatch.setattr("signorini.adapt.loop.bisect", out_of_numbers)
+    (step,) = run("l-shape")
+    assert step.reason.startswith("no finer mesh: mesh: a facet at (1, 1)")
+    assert step.certificates["P1"].upper > 0
 
 
 def test_what_cannot_be_refined_to_any_use_ends_at_once():

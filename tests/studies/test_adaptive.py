@@ -48,6 +48,8 @@ def test_savings():
     assert row["bound"] == bound
     assert row["fewer"] == pytest.approx(uniform["dofs"].max() / bound**-2)
     assert row["uniform_seconds"] == pytest.approx(2e-5 * uniform["dofs"].max())
+    assert row["uniform_run_seconds"] == pytest.approx(2e-5 * uniform["dofs"].sum())
+    assert row["faster"] < row["run_faster"]
     assert row["faster"] < row["fewer"]  # the adaptive run pays for all its steps
     assert row["effectivity"] is None
     assert compare(run(-0.5, effectivity=1.1), uniform)["effectivity"] == 1.1

@@ -12,8 +12,11 @@ import numpy as np
 
 from signorini.adapt.marking import bulk
 from signorini.certificate.certify import certify_level
+from signorini.certificate.constants import friedrichs_constant
+from signorini.exceptions import MeshError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize_on
+from signorini.memory import fits, shortage
 from signorini.mesh.bisection import bisect
 from signorini.solvers import solve
 
@@ -21,6 +24,7 @@ _log = logging.getLogger(__name__)
 # Any continuous function serves a certificate, and P1's need not be more accurate than its mesh. A
 # flux must be in equilibrium to the last bit, and CR's solution is what it is made of.
 _ACCURACY = {"P1": "discretisation", "CR": "full"}
+_BYTES = 800  # per triangle, of solving and certifying both elements; measured at 1.2 million
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,9 @@ class Goal:
         Degrees of freedom of the element, fixed ones included, beyond which no mesh is solved.
     max_seconds : float
         After which no further mesh is begun.
+    max_memory : float
+        GB that a mesh may be expected to need; whatever it is, no mesh is begun that this machine
+        cannot hold.
     uniform : bool
         Whether to refine every triangle: what an adaptive run is held against.
     """
@@ -51,6 +58,7 @@ class Goal:
     start: int = 4
     max_dofs: int = 200_000
     max_seconds: float = np.inf
+    max_memory: float = np.inf
     uniform: bool = False
 
 
@@ -101,7 +109,7 @@ def adaptive_steps(statement, goal, marks=()):
     Raises
     ------
     SolverError, SceneError, FormulaError, MeshError
-        Where a mesh cannot be solved, certified or refined.
+        Where a mesh cannot be solved or certified, or the first one not be made.
 
     Examples
     --------
@@ -115,18 +123,18 @@ def adaptive_steps(statement, goal, marks=()):
     exact = replace(statement, load_quadrature="exact")
     began = time.perf_counter()
     mesh = exact.triangulations.level(goal.start)
+    friedrichs = friedrichs_constant(mesh)  # of the body: the same on every mesh
     for marked in marks:
         mesh = bisect(mesh, marked)
     refine_seconds, solutions = time.perf_counter() - began, None
     number = len(marks)
     while True:
-        step = _solved(exact, mesh, number, solutions, refine_seconds)
+        step = _solved(exact, mesh, number, solutions, refine_seconds, friedrichs)
         if not (reason := _reason(step, goal, time.perf_counter() - began)):
             marked = _marked(step, goal)
             start = time.perf_counter()
-            mesh = bisect(step.mesh, marked)
+            mesh, reason = _refined(step.mesh, marked, goal)
             refine_seconds = time.perf_counter() - start
-            reason = _too_large(mesh, goal)
         if reason:
             yield replace(step, reason=reason)
             return
@@ -134,7 +142,7 @@ def adaptive_steps(statement, goal, marks=()):
         solutions, number = step.solutions, number + 1
 
 
-def _solved(statement, mesh, number, before, refine_seconds):
+def _solved(statement, mesh, number, before, refine_seconds, friedrichs):
     """Solve both elements on a mesh and certify them."""
     _log.info("step %d: %d triangles, solving", number, mesh.number_of_triangles)
     start = time.perf_counter()
@@ -153,6 +161,7 @@ def _solved(statement, mesh, number, before, refine_seconds):
         *(solutions[name].u for name in ("P1", "CR")),
         rule=statement.load_quadrature,
         A=solutions["CR"].problem.A,
+        friedrichs=friedrichs,
     )
     seconds = {
         "refine": refine_seconds,
@@ -189,9 +198,23 @@ def _reason(step, goal, seconds):
     return ""
 
 
+def _refined(mesh, marked, goal):
+    """The next mesh, and why it is not to be solved, or nothing."""
+    try:
+        finer = bisect(mesh, marked)
+    except MeshError as error:  # no coordinates between those that there are
+        return None, f"no finer mesh: {error}"
+    return finer, _too_large(finer, goal)
+
+
 def _too_large(mesh, goal):
     """Why a mesh is not to be solved, or nothing."""
-    size = ELEMENTS[goal.element].size(mesh)
+    size, triangles = ELEMENTS[goal.element].size(mesh), mesh.number_of_triangles
     if size > goal.max_dofs:
         return f"the next mesh has {size} degrees of freedom, more than {goal.max_dofs}"
+    if triangles * _BYTES > goal.max_memory * 1e9:
+        needed = triangles * _BYTES / 1e9
+        return f"the next mesh needs about {needed:.2g} GB of memory, more than {goal.max_memory:g}"
+    if not fits(triangles, _BYTES):
+        return f"the next mesh {shortage(triangles, _BYTES)}"
     return ""

@@ -11,7 +11,12 @@ from signorini.errors.exact import ExactErrors
 from signorini.storage import read_npz, write_csv, write_npz
 
 _FILE, _KIND = "run.npz", "adaptive run"
-_LIMITS = ("bound", "max_dofs", "max_seconds")  # of a goal: they may change, and the run goes on
+_LIMITS = (
+    "bound",
+    "max_dofs",
+    "max_seconds",
+    "max_memory",
+)  # of a goal: they may change, and the run goes on
 
 
 @dataclass

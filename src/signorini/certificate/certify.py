@@ -15,7 +15,7 @@ _SAMPLES = np.full((3, 3), 0.1) + 0.7 * np.eye(3)
 _ROUNDING = 1e-12
 
 
-def certify_level(mesh, data, u_p1, u_cr, rule="exact", published=None, A=None):
+def certify_level(mesh, data, u_p1, u_cr, rule="exact", published=None, A=None, friedrichs=None):
     """Bound the errors of both elements on one mesh; no truth is needed.
 
     Parameters
@@ -32,6 +32,8 @@ def certify_level(mesh, data, u_p1, u_cr, rule="exact", published=None, A=None):
         The CR function to be certified where it is not `u_cr`: a solution by another quadrature.
     A : scipy.sparse.csr_array, optional
         CR's stiffness matrix, where it is there already.
+    friedrichs : float, optional
+        `friedrichs_constant` of the body, where it is known from another mesh of it.
 
     Returns
     -------
@@ -63,10 +65,11 @@ def certify_level(mesh, data, u_p1, u_cr, rule="exact", published=None, A=None):
     _check_straight(mesh)
     if data.constraint == "upper":
         minus = None if published is None else -published
-        return certify_level(mesh, mirrored(data), -u_p1, -u_cr, rule, minus, A)
+        return certify_level(mesh, mirrored(data), -u_p1, -u_cr, rule, minus, A, friedrichs)
     coefficient = coefficient_on(mesh, data.coefficient)
     _check_coefficient(mesh, data.coefficient, coefficient)
-    enclosure = enclose(Topology(mesh, coefficient), data, rule, u_p1, u_cr, A)
+    topology = Topology(mesh, coefficient)
+    enclosure = enclose(topology, data, rule, u_p1, u_cr, A, friedrichs)
     certificates = {
         "P1": certify_p1(enclosure, u_p1),
         "CR": certify_cr(enclosure, u_cr if published is None else published),

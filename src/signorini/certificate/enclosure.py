@@ -132,7 +132,7 @@ class Distances(NamedTuple):
     flux: float
 
 
-def enclose(topology, data, rule, u_p1, u_cr, A=None):
+def enclose(topology, data, rule, u_p1, u_cr, A=None, friedrichs=None):
     """The `Enclosure` from the solutions of both elements on one mesh.
 
     Parameters
@@ -147,6 +147,8 @@ def enclose(topology, data, rule, u_p1, u_cr, A=None):
         The CR solution under these data.
     A : scipy.sparse.csr_array, optional
         CR's stiffness matrix, where it is there already.
+    friedrichs : float, optional
+        `friedrichs_constant` of the body, where it is known from another mesh of it.
 
     Returns
     -------
@@ -167,7 +169,8 @@ def enclose(topology, data, rule, u_p1, u_cr, A=None):
     flux = raw.with_bubbles(raw.bubbles + bubbles.curls.x)
     potential = v.with_bubbles(admissible.bubbles + bubbles.inner.x)
     distances = _distances(topology, potential, flux, admissible.rest)
-    constant = friedrichs_constant(topology.mesh) / np.sqrt(topology.least_coefficient)
+    known = friedrichs if friedrichs is not None else friedrichs_constant(topology.mesh)
+    constant = known / np.sqrt(topology.least_coefficient)
     slack = constant * equilibrium.imbalance
     contact = contact_term(equilibrium, admissible)
     return Enclosure(

@@ -97,20 +97,28 @@ def check_square_integrable(mesh, f, loads):
         return
     first = max(loads.remainder.size - _WORST, 0)
     worst = np.argpartition(loads.remainder, first)[first:]
-    for cell in worst[loads.remainder[worst] > 0.0]:
-        corners = _corners(mesh, slice(cell, cell + 1))
-        before = _square(f, corners)[0]
-        for _ in range(_HALVINGS):
-            corners = _quarters(corners)
-            squares = _square(f, corners)
-            most = int(np.argmax(squares))
-            corners = corners[:, :, most : most + 1]
-        if squares[most] > _STAYS * before:
-            x, y = corners.mean(axis=1)[:, 0]
-            raise SceneError(
-                f"data.f: is not square integrable at ({x:.6g}, {y:.6g}), as a certificate needs "
-                "it; smooth it there"
-            )
+    corners = _corners(mesh, worst[loads.remainder[worst] > 0.0])
+    if not corners.size:
+        return
+    before = _square(f, corners)
+    for _ in range(_HALVINGS):
+        corners, squares = _worst_quarters(f, corners)
+    stays = np.flatnonzero(squares > _STAYS * before)
+    if stays.size:
+        x, y = corners[:, :, stays[0]].mean(axis=1)
+        raise SceneError(
+            f"data.f: is not square integrable at ({x:.6g}, {y:.6g}), as a certificate needs "
+            "it; smooth it there"
+        )
+
+
+def _worst_quarters(f, corners):
+    """Of each triangle (2, 3, m) the quarter on which int f^2 is largest, and that integral."""
+    quarters = _quarters(corners)
+    squares = _square(f, quarters.reshape(2, 3, -1)).reshape(4, -1)
+    most = squares.argmax(axis=0)
+    each = np.arange(most.size)
+    return quarters[:, :, most, each], squares[most, each]
 
 
 def _square(f, corners):
@@ -120,16 +128,17 @@ def _square(f, corners):
 
 
 def _quarters(corners):
-    """The four triangles between the corners of one and its midpoints, (2, 3, 4)."""
+    """The four triangles between the corners of each of m and its midpoints, (2, 3, 4, m)."""
     a, b, c = corners.transpose(1, 0, 2)
     ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
     parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
-    return np.concatenate([np.stack(part, axis=1) for part in parts], axis=2)
+    return np.stack([np.stack(part, axis=1) for part in parts], axis=2)
 
 
 def _corners(mesh, cells):
-    """Corners of some triangles, (2, 3, m)."""
+    """Corners of some triangles, a slice or their numbers: (2, 3, m)."""
     if not isinstance(mesh, Grid):
         return mesh.corners(cells)
-    numbers = np.arange(*cells.indices(mesh.number_of_triangles))
-    return mesh.points(mesh.triangles(numbers).t.ravel()).reshape(2, 3, -1)
+    if isinstance(cells, slice):
+        cells = np.arange(*cells.indices(mesh.number_of_triangles))
+    return mesh.points(mesh.triangles(cells).t.ravel()).reshape(2, 3, -1)

@@ -43,6 +43,12 @@ def add_arguments(parser):
     parser.add_argument(
         "--max-seconds", type=float, help="after which no mesh is begun; default: none"
     )
+    parser.add_argument(
+        "--max-memory",
+        type=float,
+        metavar="GB",
+        help="of memory, beyond which no mesh is begun; default: what this machine has",
+    )
     parser.add_argument("--uniform", action="store_true", help="refine every triangle, to compare")
     parser.add_argument(
         "--warm", action="store_true", help="solve the first mesh twice, before any clock starts"
@@ -97,7 +103,7 @@ def goal_of(scene, arguments):
     SceneError
         Naming the option, its value and what it may be.
     """
-    names = ("bound", "element", "theta", "start", "max_dofs", "max_seconds")
+    names = ("bound", "element", "theta", "start", "max_dofs", "max_seconds", "max_memory")
     given = {name: getattr(arguments, name) for name in names}
     chosen = {"start": scene.levels[0]} | scene.document.get("adapt", {})
     chosen |= {name: value for name, value in given.items() if value is not None}
@@ -107,6 +113,10 @@ def goal_of(scene, arguments):
     for name in ("start", "max_dofs"):
         if getattr(goal, name) < 1:
             raise SceneError(f"--{name.replace('_', '-')} {getattr(goal, name)}: give 1 or more")
+    for name in ("max_seconds", "max_memory"):
+        if not getattr(goal, name) >= 0.0:
+            option = f"--{name.replace('_', '-')}"
+            raise SceneError(f"{option} {getattr(goal, name):g}: give a positive number")
     if not goal.bound >= 0.0:
         raise SceneError(f"--bound {goal.bound:g}: give a positive error, or 0 for no bound")
     return goal

@@ -16,12 +16,13 @@ METHODS = {
 _DENSE_CONTACT_UP_TO = (
     1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
 )
-# Dofs up to which a factorisation is faster than to load and build a hierarchy; measured.
-_DIRECT_UP_TO = 20_000
+# Dofs up to which a factorisation is faster than a hierarchy, by the accuracy that is wanted;
+# measured.
+_DIRECT_UP_TO = {"full": 20_000, "discretisation": 2_000}
 REQUESTED = "asked for"
 
 
-def choose_route(problem, method):
+def choose_route(problem, method, accuracy="full"):
     """The route for a problem, and why that one.
 
     Parameters
@@ -29,6 +30,8 @@ def choose_route(problem, method):
     problem : Problem
     method : str
         Of `METHODS`, or "auto" for the cheapest that applies.
+    accuracy : {"full", "discretisation"}
+        That is wanted.
 
     Returns
     -------
@@ -59,7 +62,7 @@ def choose_route(problem, method):
             else "no contact part: plain Poisson"
         )
         return "fourier", f"uniform grid, {condition}"
-    if problem.b.size <= _DIRECT_UP_TO:
+    if problem.b.size <= _DIRECT_UP_TO[accuracy]:
         return "direct", why_not
     from signorini.solvers.conditioning import is_nested, is_regular
 

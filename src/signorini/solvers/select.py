@@ -66,7 +66,7 @@ def solve(problem, method="auto", guess=None, accuracy="full"):
         )
     check_data(problem)
     guess = checked_guess(problem, guess)
-    method, reason = choose_route(problem, method)
+    method, reason = choose_route(problem, method, accuracy)
     check_solvable(problem)
     if problem.upper:
         return _solved(mirrored(problem), method, reason, guess, accuracy).mirrored(problem)

@@ -53,7 +53,7 @@ def needed(run, bound, column):
     ----------
     run : pandas.DataFrame
     bound : float
-    column : {"dofs", "total"}
+    column : {"dofs", "own", "total"}
 
     Returns
     -------
@@ -83,11 +83,13 @@ def compare(adaptive, uniform):
     dict
         ``bound``; the unknowns ``dofs`` and ``uniform_dofs`` that it takes, ``fewer``, their ratio;
         ``seconds`` of all adaptive steps up to it, ``uniform_seconds`` of the one uniform mesh
-        alone, ``faster``, their ratio; both slopes; the greatest effectivity, or None.
+        alone and ``uniform_run_seconds`` of all uniform meshes up to it, ``faster`` and
+        ``run_faster``, their ratios to the first; both slopes; the greatest effectivity, or None.
     """
     bound = max(adaptive["upper"].min(), uniform["upper"].min())
     dofs, uniform_dofs = (needed(run, bound, "dofs") for run in (adaptive, uniform))
-    seconds, uniform_seconds = needed(adaptive, bound, "total"), needed(uniform, bound, "own")
+    seconds = needed(adaptive, bound, "total")
+    uniform_seconds, run_seconds = (needed(uniform, bound, column) for column in ("own", "total"))
     known = pd.concat([adaptive["effectivity"], uniform["effectivity"]]).dropna()
     return {
         "bound": float(bound),
@@ -96,7 +98,9 @@ def compare(adaptive, uniform):
         "fewer": uniform_dofs / dofs,
         "seconds": seconds,
         "uniform_seconds": uniform_seconds,
+        "uniform_run_seconds": run_seconds,
         "faster": uniform_seconds / seconds,
+        "run_faster": run_seconds / seconds,
         "slope": slope(adaptive),
         "uniform_slope": slope(uniform),
         "effectivity": float(known.max()) if len(known) else None,

@@ -5,7 +5,7 @@ CORES ?= 2
 
 run := .venv/bin/python -m
 
-.PHONY: help paper test lint docs readme examples studies requirements clean distclean
+.PHONY: help paper test lint docs petsc readme examples studies requirements clean distclean
 .NOTPARALLEL:
 
 help:
@@ -13,6 +13,7 @@ help:
 	@echo 'make test          run all tests'
 	@echo 'make lint          check format, style and types of Python, and Snakemake files'
 	@echo 'make docs          build the documentation site, build/site/index.html'
+	@echo 'make petsc         install what solver.method petsc needs, on Debian or Ubuntu as root; about a minute'
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make examples      run the examples, draw their pictures and write docs/examples.md'
 	@echo 'make studies       run the six studies, up to an hour, and keep what they measured in docs/studies'
@@ -37,6 +38,9 @@ lint: .venv/ready
 docs: .venv/docs
 	$(run) sphinx -W --keep-going --quiet --builder html --conf-dir docs . build/site
 	@echo 'build/site/index.html'
+
+petsc: .venv/ready
+	.ci/install_petsc .venv/bin/python
 
 readme: paper
 	$(run) snakemake --cores $(CORES) all_scenes

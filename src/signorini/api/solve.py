@@ -20,7 +20,7 @@ def solve(
     ----------
     problem : Problem
         Of `signorini.problem`, `Scene.problem` or `discretize`.
-    method : {"auto", "fourier", "direct", "multigrid"}
+    method : {"auto", "fourier", "direct", "multigrid", "petsc"}
         "auto" takes the cheapest route that applies and says why in the solution.
     guess : ndarray of bool, shape (nc,), optional
         Contact dofs believed to bind, for instance from a coarser level.

@@ -16,7 +16,8 @@ from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.fem.problem import discretize_on
 from signorini.scene.memory_check import check_level
 from signorini.scene.scene import naming
-from signorini.solvers import METHODS, solve
+from signorini.solvers import solve
+from signorini.solvers.routes import ALL_METHODS
 from signorini.solvers.select import ACCURACIES
 from signorini.solvers.stored import write_solution
 
@@ -35,7 +36,7 @@ def add_arguments(parser):
     )
     parser.add_argument(
         "--method",
-        choices=("auto", *METHODS),
+        choices=("auto", *ALL_METHODS),
         help="the solver; default: the scene's solver.method",
     )
     parser.add_argument(

@@ -212,7 +212,7 @@ _ALL = (
     ("petsc-vi", "PETSc SNES vinewtonrsls", "petsc4py", _BOUNDED, "petsc_vi"),
     ("petsc-tao", "PETSc TAO bnls", "petsc4py", _BOUNDED, "petsc_tao"),
 )
-_INSTALL = {"petsc4py": "pip install petsc petsc4py"}
+_INSTALL = {"petsc4py": "make petsc"}
 
 RIVALS = {
     name: Rival(

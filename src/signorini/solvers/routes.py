@@ -12,6 +12,9 @@ METHODS = {
     "direct": ("signorini.solvers.direct", "solve_direct"),
     "multigrid": ("signorini.solvers.multigrid", "solve_multigrid"),
 }
+# Routes that need packages of their own, and are taken where asked for alone.
+EXTRAS = {"petsc": ("signorini.solvers.petsc", "solve_petsc")}
+ALL_METHODS = METHODS | EXTRAS
 
 _DENSE_CONTACT_UP_TO = (
     1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
@@ -29,7 +32,7 @@ def choose_route(problem, method, accuracy="full"):
     ----------
     problem : Problem
     method : str
-        Of `METHODS`, or "auto" for the cheapest that applies.
+        Of `ALL_METHODS`, or "auto" for the cheapest that applies.
     accuracy : {"full", "discretisation"}
         That is wanted.
 
@@ -44,9 +47,9 @@ def choose_route(problem, method, accuracy="full"):
     NotApplicableError
         If the method does not apply.
     """
-    if method not in ("auto", *METHODS):
+    if method not in ("auto", *ALL_METHODS):
         raise SolverError(
-            f"solver.method: unknown method {method!r}; known: auto, {', '.join(METHODS)}"
+            f"solver.method: unknown method {method!r}; known: auto, {', '.join(ALL_METHODS)}"
         )
     if method != "auto":
         if why_not := _why_not(method, problem):
@@ -82,5 +85,5 @@ def choose_route(problem, method, accuracy="full"):
 
 def _why_not(method, problem):
     """Why a route does not apply to a problem, or None; the direct one always does."""
-    module = importlib.import_module(METHODS[method][0])
+    module = importlib.import_module(ALL_METHODS[method][0])
     return module.why_not(problem) if hasattr(module, "why_not") else None

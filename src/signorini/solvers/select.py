@@ -11,7 +11,7 @@ from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult, variation_of
-from signorini.solvers.routes import METHODS, REQUESTED, choose_route
+from signorini.solvers.routes import ALL_METHODS, REQUESTED, choose_route
 from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
 
 ACCURACIES = ("full", "discretisation")
@@ -31,7 +31,7 @@ def solve(problem, method="auto", guess=None, accuracy="full"):
     Parameters
     ----------
     problem : Problem
-    method : {"auto", "fourier", "direct", "multigrid"}
+    method : {"auto", "fourier", "direct", "multigrid", "petsc"}
         "auto" takes the cheapest route that applies and says why in the solution.
     guess : ndarray of bool, shape (nc,), optional
         Contact dofs believed to bind, for instance from a coarser level.
@@ -197,7 +197,7 @@ def _solve_roughly(problem, guess):
 
 
 def _run_route(problem, method, guess):
-    module, function = METHODS[method]
+    module, function = ALL_METHODS[method]
     try:
         return RouteResult(*getattr(importlib.import_module(module), function)(problem, guess))
     except (np.linalg.LinAlgError, FloatingPointError) as error:

@@ -21,7 +21,7 @@ rule benchmark_point:
         scene=ancient(scene_file),
         machine=ancient(f"{BENCHMARK}/machine.json"),
         before=point_before,
-        solution="results/{scene}/solutions/{element}/n{n}.npz",
+        solution=measured_solution,
         settings=ancient(BENCHMARK_SETTINGS),
     output:
         f"{BENCHMARK}/points/{{scene}}/{{element}}/{{method}}/n{{n}}.csv",
@@ -66,6 +66,27 @@ rule benchmark_rival:
         " 2>&1 | tee {log:q}"
 
 
+# Multigrid only as far as it pays: its solutions have errors of their own.
+rule benchmark_rough:
+    input:
+        library("solve", scene=benchmark_scene_names),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+    output:
+        f"{BENCHMARK}/rough/{{scene}}/solutions/{{element}}/n{{n}}.npz",
+    log:
+        f"{BENCHMARK}/logs/rough/{{scene}}_{{element}}_n{{n}}.log",
+    benchmark:
+        f"{BENCHMARK}/benchmarks/rough_{{scene}}_{{element}}_n{{n}}.tsv"
+    params:
+        content=content("solve"),
+        statement=statement,
+    shell:
+        "python3 -m signorini solve {input.scene:q} --element {wildcards.element} --n {wildcards.n}"
+        " --mesh {input.mesh:q} --method multigrid --accuracy discretisation -o {output:q}"
+        " 2>&1 | tee {log:q}"
+
+
 use rule reference as benchmark_reference with:
     output:
         f"{BENCHMARK}/references/{{scene}}.npz",
@@ -86,13 +107,8 @@ use rule errors as benchmark_errors with:
         library("errors", scene=benchmark_scene_names),
         scene=ancient(scene_file),
         mesh=mesh_file,
-        reference=lambda wildcards: [f"{BENCHMARK}/references/{wildcards.scene}.npz"]
-        * (scene(wildcards.scene).truth["kind"] == "reference"),
-        solutions=lambda wildcards: [
-            f"results/{wildcards.scene}/solutions/{element}/n{n}.npz"
-            for element in scene(wildcards.scene).elements
-            for n in shown_levels(measured(), scene(wildcards.scene))
-        ],
+        reference=benchmark_truth,
+        solutions=shown_solutions("results"),
     output:
         f"{BENCHMARK}/errors/{{scene}}.csv",
     log:
@@ -107,13 +123,29 @@ use rule errors as benchmark_errors with:
         reference=reference_option,
 
 
+use rule benchmark_errors as benchmark_rough_errors with:
+    input:
+        library("errors", scene=benchmark_scene_names),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+        reference=benchmark_truth,
+        solutions=shown_solutions(f"{BENCHMARK}/rough"),
+    output:
+        f"{BENCHMARK}/errors/rough/{{scene}}.csv",
+    log:
+        f"{BENCHMARK}/logs/rough_errors_{{scene}}.log",
+    benchmark:
+        f"{BENCHMARK}/benchmarks/rough_errors_{{scene}}.tsv"
+
+
 rule benchmark_gather:
     input:
         library("benchmark gather"),
         scenes=ancient(benchmark_scenes),
         points=points,
         rivals=rival_files,
-        errors=lambda wildcards: [f"{BENCHMARK}/errors/{name}.csv" for name in measured()["scenes"]],
+        errors=benchmark_error_tables("errors"),
+        rough=benchmark_error_tables("errors/rough"),
         coarse=coarse_errors,
         settings=ancient(BENCHMARK_SETTINGS),
     output:
@@ -130,7 +162,8 @@ rule benchmark_gather:
         settings=SETTINGS,
     shell:
         "python3 -m signorini benchmark gather --scenes {input.scenes:q} --points {input.points:q}"
-        " --rivals {input.rivals:q} --errors {input.errors:q} --coarse {input.coarse:q}"
+        " --rivals {input.rivals:q} --errors {input.errors:q} --rough {input.rough:q}"
+        " --coarse {input.coarse:q}"
         " {params.settings} -o {params.folder:q} 2>&1 | tee {log:q}"
 
 

@@ -53,9 +53,40 @@ def benchmark_reference_level(wildcards):
 
 
 def routes():
-    from signorini.solvers import METHODS  # NumPy: only for the benchmark
+    from signorini.studies.benchmark.routes import ROUTES  # NumPy: only for the benchmark
 
-    return list(METHODS)
+    return list(ROUTES)
+
+
+def rough():
+    from signorini.studies.benchmark.routes import ROUGH  # NumPy: only for the benchmark
+
+    return ROUGH
+
+
+def measured_solution(wildcards):
+    """Where the solution is whose errors a point has."""
+    folder = f"{BENCHMARK}/rough" if wildcards.method == rough() else "results"
+    return f"{folder}/{wildcards.scene}/solutions/{wildcards.element}/n{wildcards.n}.npz"
+
+
+def shown_solutions(folder):
+    """An input: the solutions of a scene whose errors are shown, below a folder."""
+
+    def found(wildcards):
+        levels = shown_levels(measured(), scene(wildcards.scene))
+        return [
+            f"{folder}/{wildcards.scene}/solutions/{element}/n{n}.npz"
+            for element in scene(wildcards.scene).elements
+            for n in levels
+        ]
+
+    return found
+
+
+def benchmark_truth(wildcards):
+    needed = scene(wildcards.scene).truth["kind"] == "reference"
+    return [f"{BENCHMARK}/references/{wildcards.scene}.npz"] * needed
 
 
 def rivals():
@@ -93,6 +124,11 @@ def rival_files(wildcards):
 def all_cores(wildcards):
     """As many as Snakemake was given; one where it was given none, as by `snakemake --unlock` or for a cluster."""
     return workflow.global_resources["_cores"].value or 1
+
+
+def benchmark_error_tables(folder):
+    """An input: the errors of every scene."""
+    return lambda wildcards: [f"{BENCHMARK}/{folder}/{name}.csv" for name in measured()["scenes"]]
 
 
 def coarse_errors(wildcards):

@@ -24,6 +24,7 @@ def add_arguments(parser):
         "--points": "of `signorini benchmark point`",
         "--rivals": "of `signorini benchmark rival`",
         "--errors": "SCENE.csv for each scene, on the levels shown",
+        "--rough": "the same of solutions to discretisation accuracy",
         "--coarse": "SCENE/errors.csv, where the scene's own reference is coarser",
     }.items():
         parser.add_argument(name, nargs="*", default=[], type=Path, metavar="FILE", help=what)
@@ -41,7 +42,8 @@ def run(arguments):
     }
     errors = _errors({path.stem: path for path in arguments.errors}, shown)
     coarse = _errors({path.parent.name: path for path in arguments.coarse}, sections)
-    points = with_errors(_rows(arguments.points, POINT_NUMBERS), errors)
+    rough = _errors({path.stem: path for path in arguments.rough}, shown)
+    points = with_errors(_rows(arguments.points, POINT_NUMBERS), errors, rough)
     rivals = _rows(arguments.rivals, RIVAL_NUMBERS)
     write_csv(arguments.output / "benchmark.csv", points)
     write_csv(arguments.output / "rivals.csv", rivals)

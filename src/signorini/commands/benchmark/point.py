@@ -11,11 +11,11 @@ from signorini.commands.benchmark.options import add_settings, settings_of
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, scene_of
 from signorini.fem.element_facts import ELEMENT_NAMES
-from signorini.solvers import METHODS
 from signorini.solvers.stored import read_solution
 from signorini.storage import read_csv, write_csv
 from signorini.studies.benchmark.columns import POINT
 from signorini.studies.benchmark.point import difference, measure, why_not
+from signorini.studies.benchmark.routes import ROUTES
 
 
 def add_arguments(parser):
@@ -23,12 +23,12 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("--element", choices=ELEMENT_NAMES, required=True)
     parser.add_argument("--n", type=int, required=True, help="the level, 1/h")
-    parser.add_argument("--method", choices=METHODS, required=True, help="the route")
+    parser.add_argument("--method", choices=ROUTES, required=True, help="the route")
     parser.add_argument(
         "--solution",
         required=True,
         metavar="FILE",
-        help="the stored solution, by the scene's own method",
+        help="the stored solution whose errors are shown",
     )
     parser.add_argument("--before", metavar="FILE", help="the row of the level before, .csv")
     add_settings(parser)
@@ -45,7 +45,7 @@ def run(arguments):
     row |= {key: getattr(arguments, key) for key in ("element", "n", "method")}
     write_csv(arguments.output, [{name: row.get(name) for name in POINT}])
     what = f"{scene.name} {arguments.element} n = {arguments.n} {arguments.method}"
-    return Outcome(f"{what}: {row.get('note') or _seconds(row)}", row)
+    return Outcome(f"{what}: {_told(row)}", row)
 
 
 def _measured(scene, settings, arguments):
@@ -58,5 +58,7 @@ def _measured(scene, settings, arguments):
     return row
 
 
-def _seconds(row):
+def _told(row):
+    if row["status"] == "skipped":
+        return row["note"]
     return f"{row['total']:.4f} s ({row['total_min']:.4f} to {row['total_max']:.4f})"

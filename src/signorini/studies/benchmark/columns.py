@@ -25,7 +25,8 @@ POINT_NUMBERS = (
 POINT = (*SERIES, "status", "note", *POINT_NUMBERS)
 """A point: scene, element, route and level. Times in seconds: medians, least and largest over the
 repeats. `memory` and `peak` in bytes: beyond what the process held before, and in all. `status` is
-"measured", or "skipped" for the reason in `note`. `difference` is that of u from the stored
+"measured", or "skipped" for the reason in `note`; a `note` of a measured one says why its solution
+is in full and not to discretisation accuracy. `difference` is that of u from the stored
 solution, whose errors are listed, relative to max |u|. `load` is the machine's load average over
 the last minute when the point began. Counts as in `signorini.work.Work`."""
 

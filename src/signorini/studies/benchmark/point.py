@@ -16,13 +16,14 @@ from signorini.fem.problem import Problem, discretize_on
 from signorini.mesh.domain import make_domain
 from signorini.solvers import solve
 from signorini.studies.benchmark.columns import TIMES, with_range
+from signorini.studies.benchmark.routes import ROUTES
 from signorini.work import counting
 
 # A level has four times the unknowns of the one before and costs somewhat more than four times.
 _GROWTH = {"seconds": 5.0, "memory": 4.5}
 
 
-def measure(statement, element, n, method, repeats, warm_up):
+def measure(statement, element, n, route, repeats, warm_up):
     """Measure one point in this process, which should be fresh: the peak memory is the process's.
 
     Parameters
@@ -30,8 +31,8 @@ def measure(statement, element, n, method, repeats, warm_up):
     statement : ProblemStatement
     element : {"P1", "CR"}
     n : int
-    method : str
-        A route of `signorini.solvers.METHODS`.
+    route : str
+        One of `routes.ROUTES`.
     repeats : dict
         ``least`` and ``most`` repeats, and the ``seconds`` after which no further one starts.
     warm_up : int
@@ -43,18 +44,18 @@ def measure(statement, element, n, method, repeats, warm_up):
         Those of `columns.POINT` that follow from the measurement.
     u : ndarray or None
         The solution; None where the route does not apply, or fails: the row's status and note then
-        say so.
+        say so. The note says as well where a solution is in full that was not to be.
     """
     load = os.getloadavg()[0]
     try:
-        _run(statement, element, warm_up, method)
+        _run(statement, element, warm_up, route)
         gc.collect()
         before = memory_now()
         runs, start = [], time.perf_counter()
         while _goes_on(len(runs), time.perf_counter() - start, repeats):
             problem = solution = None
             gc.collect()
-            seconds, work, problem, solution = _run(statement, element, n, method)
+            seconds, work, problem, solution = _run(statement, element, n, route)
             runs.append(seconds)
     except SolverError as error:
         return {"status": "skipped", "note": str(error), "load": load}, None
@@ -63,22 +64,30 @@ def measure(statement, element, n, method, repeats, warm_up):
     row |= {"memory": peak - before, "peak": peak} | asdict(work)
     for name in TIMES:
         row |= spread(name, [run[name] for run in runs])
+    row |= {"note": _note(route, solution)}
     return row | {"iterations": solution.iterations, "residual": solution.residual}, solution.u
+
+
+def _note(route, solution):
+    """Why a solution to discretisation accuracy is one in full; else nothing."""
+    rough = ROUTES[route][1] == "discretisation"
+    return solution.reason if rough and solution.status != "discretisation" else ""
 
 
 def _goes_on(done, seconds, repeats):
     return done < repeats["least"] or (done < repeats["most"] and seconds < repeats["seconds"])
 
 
-def _run(statement, element, n, method):
+def _run(statement, element, n, route):
     """Once from statement to solution; a domain is triangulated anew."""
+    method, accuracy = ROUTES[route]
     start = time.perf_counter()
     mesh = make_domain(statement.domain, statement.boundary, statement.coarsest).level(n)
     meshed = time.perf_counter()
     problem, matrix = _timed(discretize_on(mesh, element, statement))
     discretised = time.perf_counter()
     with counting() as work:
-        solution = solve(problem, method)
+        solution = solve(problem, method, accuracy=accuracy)
     end = time.perf_counter()
     seconds = {
         "mesh": meshed - start,

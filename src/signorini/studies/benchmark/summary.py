@@ -8,7 +8,9 @@ import pandas as pd
 
 from signorini.errors.norms import ALWAYS_NAMED, PAPER_NORMS
 from signorini.errors.rates import slopes
+from signorini.studies.benchmark.accuracy import as_far_as_it_pays
 from signorini.studies.benchmark.columns import SERIES, series
+from signorini.studies.benchmark.routes import ROUGH
 
 TARGETS = (1e-1, 1e-2, 1e-3, 1e-4)
 COSTS = ("total", "total_min", "total_max", "dofs", "memory")
@@ -18,27 +20,34 @@ _ROUND_OFF = 1e5  # bytes: less is round-off of the allocator
 _FITTED = 4  # finest levels that an exponent is fitted to
 
 
-def with_errors(points, errors):
+def with_errors(points, errors, rough):
     """Add the errors of their scene, element and level to the rows of the points.
 
     Parameters
     ----------
     points : list of dict
-    errors : dict
-        Scene -> rows of its errors.csv. All routes of an element share them: the column
-        `difference` of a point says how far its solution is from the one that they are of.
+    errors, rough : dict
+        Scene -> rows of its errors.csv: of solutions in full, which the routes of an element share,
+        and of those to discretisation accuracy. The column `difference` of a point says how far its
+        solution is from the one that the errors are of.
 
     Returns
     -------
     list of dict
         The norms are None where there are no errors.
     """
-    by_level = {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
+    in_full, not_in_full = _by_level(errors), _by_level(rough)
     rows = []
     for row in points:
-        known = by_level.get((row["scene"], *_level(row)), {})
+        its_own = not_in_full if row["method"] == ROUGH else in_full
+        known = its_own.get((row["scene"], *_level(row)), {})
         rows.append(row | {norm: known.get(norm) for norm in ALWAYS_NAMED})
     return rows
+
+
+def _by_level(errors):
+    """(scene, element, n) -> its row."""
+    return {(scene, *_level(row)): row for scene, rows in errors.items() for row in rows}
 
 
 def _level(row):
@@ -90,8 +99,12 @@ def _at_least(row, cost):
 
 
 def fastest(reached):
-    """(scene, norm, target) -> element -> its row of least time, of all routes that reach it."""
-    frame = pd.DataFrame(reached).dropna(subset="total").sort_values("total", kind="stable")
+    """(scene, norm, target) -> element -> its row of least time, of all routes that reach it.
+
+    Only routes in full count, whose solutions have a proof.
+    """
+    frame = pd.DataFrame([row for row in reached if row["method"] != ROUGH])
+    frame = frame.dropna(subset="total").sort_values("total", kind="stable")
     frame = frame.drop_duplicates(["scene", "norm", "target", "element"]).sort_index()
     best = {}
     for row in frame.to_dict("records"):
@@ -275,6 +288,7 @@ def summary(points, rivals, coarse, errors):
     return {
         "reach": reach(points),
         "growth": growth(points),
+        "accuracy": as_far_as_it_pays(points),
         "reference_bias": reference_bias(coarse, errors),
         "comparisons": comparisons(rivals),
         "verdicts": verdicts(rivals),

@@ -66,6 +66,28 @@ rule benchmark_rival:
         " 2>&1 | tee {log:q}"
 
 
+rule benchmark_guarantee:
+    input:
+        library("benchmark guarantee", scene=guaranteed_scene_names),
+        scene=ancient(scene_file),
+        machine=ancient(f"{BENCHMARK}/machine.json"),
+        settings=ancient(BENCHMARK_SETTINGS),
+    output:
+        f"{BENCHMARK}/guaranteed/{{scene}}.csv",
+    log:
+        f"{BENCHMARK}/logs/guaranteed_{{scene}}.log",
+    threads: all_cores
+    params:
+        content=content("benchmark guarantee"),
+        statement=statement,
+        start=lambda wildcards: scene(wildcards.scene).levels[0],
+        measured=benchmark_settings("guaranteed"),
+        settings=SETTINGS,
+    shell:
+        "python3 -m signorini benchmark guarantee {input.scene:q} {params.settings} -o {output:q}"
+        " 2>&1 | tee {log:q}"
+
+
 # Multigrid only as far as it pays: its solutions have errors of their own.
 rule benchmark_rough:
     input:
@@ -144,6 +166,7 @@ rule benchmark_gather:
         scenes=ancient(benchmark_scenes),
         points=points,
         rivals=rival_files,
+        guaranteed=guaranteed_files,
         errors=benchmark_error_tables("errors"),
         rough=benchmark_error_tables("errors/rough"),
         coarse=coarse_errors,
@@ -151,6 +174,7 @@ rule benchmark_gather:
     output:
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
+        guaranteed=f"{BENCHMARK}/benchmark_guaranteed.csv",
         summary=f"{BENCHMARK}/summary.json",
     log:
         f"{BENCHMARK}/logs/gather.log",
@@ -163,7 +187,7 @@ rule benchmark_gather:
     shell:
         "python3 -m signorini benchmark gather --scenes {input.scenes:q} --points {input.points:q}"
         " --rivals {input.rivals:q} --errors {input.errors:q} --rough {input.rough:q}"
-        " --coarse {input.coarse:q}"
+        " --coarse {input.coarse:q} --guaranteed {input.guaranteed:q}"
         " {params.settings} -o {params.folder:q} 2>&1 | tee {log:q}"
 
 

@@ -52,6 +52,14 @@ def benchmark_reference_level(wildcards):
     return measured()["scenes"][wildcards.scene]["reference"]
 
 
+def guaranteed_scene_names():
+    return measured()["guaranteed"]["scenes"]
+
+
+def guaranteed_files(wildcards):
+    return [f"{BENCHMARK}/guaranteed/{name}.csv" for name in guaranteed_scene_names()]
+
+
 def routes():
     from signorini.studies.benchmark.routes import ROUTES  # NumPy: only for the benchmark
 

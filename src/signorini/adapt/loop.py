@@ -24,6 +24,8 @@ _log = logging.getLogger(__name__)
 # Any continuous function serves a certificate, and P1's need not be more accurate than its mesh. A
 # flux must be in equilibrium to the last bit, and CR's solution is what it is made of.
 _ACCURACY = {"P1": "discretisation", "CR": "full"}
+STAGES = ("refine", "solve", *ELEMENTS, "certify")
+"""What a step takes seconds for: to make its mesh, to solve, each element alone, and to certify."""
 _BYTES = 800  # per triangle, of solving and certifying both elements; measured at 1.2 million
 
 
@@ -74,7 +76,7 @@ class Step:
     solutions, certificates : dict
         `Solution` and `Certificate` of each element, by name.
     seconds : dict of str to float
-        What this step took, for ``refine``, ``solve`` and ``certify``.
+        What this step took, for each of `STAGES`.
     marked : ndarray of bool, shape (nt,), or None
         What is refined next; None on the last mesh.
     reason : str
@@ -122,19 +124,20 @@ def adaptive_steps(statement, goal, marks=()):
     """
     exact = replace(statement, load_quadrature="exact")
     began = time.perf_counter()
-    mesh = exact.triangulations.level(goal.start)
-    friedrichs = friedrichs_constant(mesh)  # of the body: the same on every mesh
+    first = mesh = exact.triangulations.level(goal.start)
     for marked in marks:
         mesh = bisect(mesh, marked)
-    refine_seconds, solutions = time.perf_counter() - began, None
-    number = len(marks)
+    refined = time.perf_counter()
+    friedrichs = friedrichs_constant(first)  # of the body: the same on every mesh
+    spent = {"refine": refined - began, "certify": time.perf_counter() - refined}
+    solutions, number = None, len(marks)
     while True:
-        step = _solved(exact, mesh, number, solutions, refine_seconds, friedrichs)
+        step = _solved(exact, mesh, number, solutions, spent, friedrichs)
         if not (reason := _reason(step, goal, time.perf_counter() - began)):
             marked = _marked(step, goal)
             start = time.perf_counter()
             mesh, reason = _refined(step.mesh, marked, goal)
-            refine_seconds = time.perf_counter() - start
+            spent = {"refine": time.perf_counter() - start, "certify": 0.0}
         if reason:
             yield replace(step, reason=reason)
             return
@@ -142,18 +145,15 @@ def adaptive_steps(statement, goal, marks=()):
         solutions, number = step.solutions, number + 1
 
 
-def _solved(statement, mesh, number, before, refine_seconds, friedrichs):
-    """Solve both elements on a mesh and certify them."""
+def _solved(statement, mesh, number, before, spent, friedrichs):
+    """Solve both elements on a mesh and certify them; `spent` are seconds for it so far."""
     _log.info("step %d: %d triangles, solving", number, mesh.number_of_triangles)
+    solutions, seconds = {}, {}
+    for name in ELEMENTS:
+        start = time.perf_counter()
+        solutions[name] = _solution(statement, mesh, name, before)
+        seconds[name] = time.perf_counter() - start
     start = time.perf_counter()
-    solutions = {}
-    for name, element in ELEMENTS.items():
-        problem = discretize_on(mesh, name, statement)
-        guess = None
-        if before is not None:
-            guess = _inherited(element, before[name], problem)
-        solutions[name] = solve(problem, guess=guess, accuracy=_ACCURACY[name])
-    between = time.perf_counter()
     _log.info("step %d: certifying", number)
     certificates, _ = certify_level(
         mesh,
@@ -163,12 +163,20 @@ def _solved(statement, mesh, number, before, refine_seconds, friedrichs):
         A=solutions["CR"].problem.A,
         friedrichs=friedrichs,
     )
-    seconds = {
-        "refine": refine_seconds,
-        "solve": between - start,
-        "certify": time.perf_counter() - between,
-    }
+    certify_seconds = spent["certify"] + time.perf_counter() - start
+    solve_seconds = sum(seconds.values())
+    seconds |= spent | {"solve": solve_seconds, "certify": certify_seconds}
+    seconds = {stage: seconds[stage] for stage in STAGES}
     return Step(number, mesh, solutions, certificates, seconds)
+
+
+def _solution(statement, mesh, name, before):
+    """That of one element, from the contact set of the mesh before."""
+    problem = discretize_on(mesh, name, statement)
+    guess = None
+    if before is not None:
+        guess = _inherited(ELEMENTS[name], before[name], problem)
+    return solve(problem, guess=guess, accuracy=_ACCURACY[name])
 
 
 def _inherited(element, solution, problem):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from signorini.adapt.loop import STAGES
 from signorini.errors.exact import ExactErrors
 from signorini.storage import read_npz, write_csv, write_npz
 
@@ -100,7 +101,7 @@ class Record:
 
 
 def key_of(scene, goal):
-    """The question that a run answers, as text: the scene, the first mesh, and the goal.
+    """The question that a run answers, as text: scene, first mesh, goal, and what is timed.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def key_of(scene, goal):
     mesh = scene.problem_statement.triangulations.level(goal.start)
     arrays = (np.ascontiguousarray(array).tobytes() for array in (mesh.p, mesh.t))
     digest = hashlib.sha256(b"".join(arrays)).hexdigest()  # a mesh file may have changed
-    return json.dumps([scene.statement, chosen, digest], sort_keys=True)
+    return json.dumps([scene.statement, chosen, digest, STAGES], sort_keys=True)
 
 
 def rows_of(step, exact=None):

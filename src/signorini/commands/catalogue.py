@@ -59,6 +59,7 @@ CATALOGUE = {
         "benchmark machine": "describe the machine, the versions and the load",
         "benchmark point": "measure an element, a level and a route of a scene",
         "benchmark rival": "measure a rival and our routes in turn",
+        "benchmark guarantee": "measure the time to a guaranteed error, and to the true one",
         "benchmark gather": "gather what was measured, and sum it up",
         "benchmark figure": "draw a figure of it",
         "benchmark report": "write its page",

@@ -13,6 +13,7 @@ from signorini.report.result_files import read_errors
 from signorini.rivals import RIVALS
 from signorini.storage import read_csv, write_csv, write_json
 from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS, WHOLE
+from signorini.studies.benchmark.guarantee_costs import GUARANTEED_NUMBERS, costs
 from signorini.studies.benchmark.settings import shown_levels
 from signorini.studies.benchmark.summary import summary, with_errors
 
@@ -26,6 +27,7 @@ def add_arguments(parser):
         "--errors": "SCENE.csv for each scene, on the levels shown",
         "--rough": "the same of solutions to discretisation accuracy",
         "--coarse": "SCENE/errors.csv, where the scene's own reference is coarser",
+        "--guaranteed": "of `signorini benchmark guarantee`",
     }.items():
         parser.add_argument(name, nargs="*", default=[], type=Path, metavar="FILE", help=what)
     add_settings(parser)
@@ -33,7 +35,7 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Gather, and write benchmark.csv, rivals.csv and summary.json."""
+    """Gather, and write benchmark.csv, rivals.csv, benchmark_guaranteed.csv and summary.json."""
     settings = settings_of(arguments)
     sections = {scene.name: scene.section("elements", "levels") for scene in scenes_of(arguments)}
     shown = {
@@ -45,10 +47,13 @@ def run(arguments):
     rough = _errors({path.stem: path for path in arguments.rough}, shown)
     points = with_errors(_rows(arguments.points, POINT_NUMBERS), errors, rough)
     rivals = _rows(arguments.rivals, RIVAL_NUMBERS)
+    guaranteed = _rows(arguments.guaranteed, GUARANTEED_NUMBERS)
     write_csv(arguments.output / "benchmark.csv", points)
     write_csv(arguments.output / "rivals.csv", rivals)
+    write_csv(arguments.output / "benchmark_guaranteed.csv", guaranteed)
     titles = {name: rival.title for name, rival in RIVALS.items()}
     totals = summary(points, rivals, coarse, errors) | {"titles": titles}
+    totals |= {"guaranteed": costs(guaranteed)}
     write_json(arguments.output / "summary.json", totals)
     measured = sum(row["status"] == "measured" for row in points)
     left_out = len(points) - measured

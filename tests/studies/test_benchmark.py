@@ -13,6 +13,7 @@ from signorini.studies import machine
 from signorini.studies.benchmark import point as benchmark
 from signorini.studies.benchmark import summary
 from signorini.studies.benchmark.columns import COUNTS, POINT, RIVAL, STAGES, TIMES, WHOLE
+from signorini.studies.benchmark.routes import ROUGH
 from signorini.work import Work
 
 PAPER = statement(f="2*pi*sin(2*pi*x)")
@@ -234,9 +235,12 @@ def test_exponents_are_fitted_to_the_finest_levels():
 
 def test_errors_belong_to_scene_element_and_level():
     errors = {"s": [{"element": "P1", "n": "4", "l2": 0.5, "h1_semi": None, "h1": 0.7}]}
-    first, second = summary.with_errors([point(4), point(8)], errors)
+    rough = {"s": [errors["s"][0] | {"l2": 0.6}]}
+    points = [point(4), point(8), point(4, ROUGH)]
+    first, second, third = summary.with_errors(points, errors, rough)
     assert (first["l2"], first["h1"]) == (0.5, 0.7)
     assert (second["l2"], second["h1"]) == (None, None)
+    assert (third["l2"], third["h1"]) == (0.6, 0.7)
 
 
 def test_a_coarse_reference_changes_errors_by_so_much():

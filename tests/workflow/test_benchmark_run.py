@@ -9,7 +9,7 @@ import pytest
 from project import FILES, inputs_of_commands, modules_of, undeclared
 
 from signorini.rivals import RIVALS
-from signorini.solvers import METHODS
+from signorini.studies.benchmark.routes import ROUGH, ROUTES
 
 LITTLE = """\
 scenes:
@@ -17,13 +17,15 @@ scenes:
 limits: {seconds: 9, megabytes: 1000}
 repeats: {least: 3, most: 5, seconds: 1}
 rivals: {levels: [16], seconds: 2}
+guaranteed: {scenes: {paper: {finest: 8, max_dofs: 100}}, repeats: 1}
 quick:
   scenes: {small: {finest: 4, reference: 8}}
   repeats: {least: 2, most: 2, seconds: 0.1}
   rivals: {levels: [2], seconds: 5}
+  guaranteed: {scenes: {small: {finest: 4, max_dofs: 60}}, repeats: 1}
 """
 QUICK = ("benchmark", "--config", "quick=true")
-POINTS = 2 * len(METHODS) * 2  # elements, routes, levels 2 and 4
+POINTS = 2 * len(ROUTES) * 2  # elements, routes, levels 2 and 4
 COMPARISONS = 2 * len(RIVALS)
 
 
@@ -47,7 +49,7 @@ def test_every_element_route_and_level_is_measured(built):
     assert run.jobs["benchmark_rival"] == COMPARISONS
     found = rows(project, "benchmark.csv")
     assert len(found) == POINTS
-    assert {row["method"] for row in found} == set(METHODS)
+    assert {row["method"] for row in found} == set(ROUTES)
     measured = [row for row in found if row["status"] == "measured"]
     assert all(
         float(row["total_min"]) <= float(row["total"]) <= float(row["total_max"])
@@ -59,6 +61,23 @@ def test_every_element_route_and_level_is_measured(built):
         "2": True,
         "4": False,
     }  # reference: 8
+
+
+def test_solutions_to_discretisation_accuracy_have_errors_of_their_own(built):
+    project, run, _ = built
+    assert run.jobs["benchmark_rough"] == 2  # of each element, on the level shown
+    found = rows(project, "benchmark.csv")
+    shown = [row for row in found if row["method"] == ROUGH and row["n"] == "2"]
+    assert [bool(row["h1"]) for row in shown] == [True, True]
+    assert all("cannot be told" in row["note"] for row in shown)  # the coarsest level
+
+
+def test_guarantees_are_measured_on_uniform_and_adaptive_meshes(built):
+    project, run, _ = built
+    assert run.jobs["benchmark_guarantee"] == 1
+    found = rows(project, "benchmark_guaranteed.csv")
+    assert {row["meshes"] for row in found} == {"uniform", "adaptive"}
+    assert all(float(row["lower"]) <= float(row["upper"]) for row in found)
 
 
 def test_rivals_are_rows_or_skipped_with_their_install_line(built):
@@ -77,7 +96,7 @@ def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not
     }
     figures = {
         f"benchmark_{name}.{ending}"
-        for name in ("error", "dofs", "growth", "stages", "rivals")
+        for name in ("error", "dofs", "growth", "guaranteed", "rivals")
         for ending in ("pdf", "png")
     }
     expected = {
@@ -90,6 +109,8 @@ def test_the_fragment_the_page_and_the_figures_are_there_and_the_full_run_is_not
         "benchmark_reach.csv",
         "benchmark_bias.csv",
         "benchmark_comparisons.csv",
+        "benchmark_accuracy.csv",
+        "benchmark_guaranteed.csv",
     }
     assert files == expected | figures
     assert not (built[0] / "results/studies").exists()
@@ -102,7 +123,7 @@ def test_what_a_job_imports_is_among_its_inputs(built):
     own = {command for command in FILES if command.startswith("benchmark ")}
     assert missing.keys() >= own - {"benchmark machine"}  # which no edit makes again
     imports = {name: found for name, found in modules_of(spied).items() if "benchmark" in name}
-    assert len(imports) == 6
+    assert len(imports) == 7
     drawing = {name for name in imports if "matplotlib" in imports[name]}
     assert drawing == {"benchmark figure"}
 
@@ -128,7 +149,8 @@ def test_nothing_runs_beside_a_measurement(built):
     jobs = re.findall(r"^(?:localrule|rule) (\w+):\n((?: .*\n)+)", text, re.M)
     threads = {rule: re.search(r"^    threads: (\d+)", body, re.M) for rule, body in jobs}
     alone = {rule for rule, found in threads.items() if found and found[1] == "2"}
-    assert alone == {"benchmark_machine", "benchmark_point", "benchmark_rival"}
+    measuring = {"benchmark_point", "benchmark_rival", "benchmark_guarantee"}
+    assert alone == {"benchmark_machine"} | measuring
 
 
 def test_a_killed_run_goes_on_where_it_was(built, tmp_path):

@@ -196,6 +196,7 @@ rule benchmark_figure:
         library("benchmark figure", figure=BENCHMARK_FIGURES),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
+        guaranteed=f"{BENCHMARK}/benchmark_guaranteed.csv",
         summary=f"{BENCHMARK}/summary.json",
     output:
         pdf=f"{BENCHMARK}/benchmark_{{figure}}.pdf",
@@ -222,6 +223,7 @@ rule benchmark:
         scenes=ancient(benchmark_scenes),
         points=f"{BENCHMARK}/benchmark.csv",
         rivals=f"{BENCHMARK}/rivals.csv",
+        guaranteed=f"{BENCHMARK}/benchmark_guaranteed.csv",
         summary=f"{BENCHMARK}/summary.json",
         machine=ancient(f"{BENCHMARK}/machine.json"),
         settings=ancient(BENCHMARK_SETTINGS),
@@ -229,7 +231,8 @@ rule benchmark:
         tex=f"{BENCHMARK}/benchmark.tex",
         markdown=f"{BENCHMARK}/benchmark.md",
         tables=expand(
-            f"{BENCHMARK}/benchmark_{{table}}.csv", table=["reach", "bias", "comparisons"]
+            f"{BENCHMARK}/benchmark_{{table}}.csv",
+            table=["reach", "bias", "comparisons", "accuracy"],
         ),
     log:
         f"{BENCHMARK}/logs/report.log",

@@ -1,56 +1,12 @@
-"""Where the benchmark's time goes, and the time of the rivals over ours."""
+"""The time of the rivals over ours."""
 
 import matplotlib
+from matplotlib.lines import Line2D
 
 from signorini.figures.benchmark_style import SMALL
-from signorini.figures.style import ACCENT, ELEMENT_STYLES, FAINT, GREY, MM, TEXT_WIDTH, new_figure
-from signorini.report.curves import stacked_shares
+from signorini.figures.style import ELEMENT_STYLES, GREY, MM, TEXT_WIDTH, new_figure
 
-STAGES = {"mesh": FAINT, "assembly": GREY, "solve": ACCENT}
 BAND = 0.6  # of a rival's row, which its levels share
-
-
-@matplotlib.rc_context(SMALL)
-def draw_stages(series):
-    """Draw where time goes on the finest level of each series, as shares of its total.
-
-    Parameters
-    ----------
-    series : dict
-        As for `benchmark_curves.draw_error`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
-    figure = new_figure(TEXT_WIDTH, (12 + 4.2 * len(series)) * MM)
-    height = figure.get_figheight() / MM
-    axes = figure.add_axes((0.3, 8 / height, 0.57, 1 - 14 / height))
-    for k, ((scene, element, method), rows) in enumerate(series.items()):
-        finest = rows[-1]
-        _draw_bar(axes, k, finest, labelled=k == 0)
-        name = f"{scene} {element} {method}, $h = 1/{finest['n']:g}$"
-        axes.text(-0.01, k, name, ha="right", va="center")
-        axes.text(1.01, k, _seconds(finest["total"]), va="center")
-    axes.set(
-        xlim=(0, 1),
-        ylim=(len(series) - 0.4, -0.6),
-        yticks=[],
-        xlabel="share of the total time",
-    )
-    axes.spines["left"].set_visible(False)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
-    return figure
-
-
-def _draw_bar(axes, y, row, labelled):
-    for stage, start, length in stacked_shares(row, STAGES):
-        label = stage if labelled else None
-        axes.barh(y, length, 0.7, start, color=STAGES[stage], label=label)
-
-
-def _seconds(value):
-    return f"{value:.2g} s" if value >= 0.0995 else f"{1e3 * value:.2g} ms"
 
 
 @matplotlib.rc_context(SMALL)
@@ -85,19 +41,40 @@ def draw_rivals(rivals, titles):
     first = next(iter(panels.values()))
     first.set_yticks(range(len(names)), [titles.get(name, name) for name in names])
     first.set_ylim(len(names) - 0.4, -0.6)
+    _add_key(figure, drawn, levels)
     return figure
+
+
+def _add_key(figure, drawn, levels):
+    """What the marks mean, above the panels."""
+    elements = sorted({row["element"] for row in drawn}, reverse=True)  # P1 first
+    marks = {f"{element} solved": _mark(element, "solved") for element in elements}
+    marks |= {f"{element} failed": _mark(element, "failed") for element in elements}
+    lines = [Line2D([], [], linestyle="none", **mark) for mark in marks.values()]
+    named = [f"1/{levels[0]:g}", f"1/{levels[-1]:g}"] if levels else ["", ""]
+    figure.legend(
+        [*lines, Line2D([], [], color=GREY, linewidth=0.6)],
+        [*marks, "equal; right of it ours is faster"],
+        loc="upper center",
+        ncols=len(marks) + 1,
+        columnspacing=1.2,
+        handletextpad=0.4,
+        borderaxespad=0.1,
+        title="in each row, from top to bottom: $h$ = {} to {}".format(*named),
+        title_fontsize=6,
+    )
 
 
 def _panels(drawn, names):
     """A figure with a row for each of `names`, and its axes by the route of ours."""
     routes = list(dict.fromkeys(row["ours"] for row in drawn)) or ["ours"]
-    figure = new_figure(TEXT_WIDTH, (16 + 6 * len(names)) * MM)
+    figure = new_figure(TEXT_WIDTH, (25 + 6 * len(names)) * MM)
     height = figure.get_figheight() / MM
     place = {
         "left": 0.22,
         "right": 0.99,
         "bottom": 9 / height,
-        "top": 1 - 5 / height,
+        "top": 1 - 14 / height,
         "wspace": 0.05,
     }
     (row,) = figure.subplots(
@@ -120,12 +97,15 @@ def _ordinate(row, names, levels):
 def _draw_ratio(axes, y, row):
     colour = ELEMENT_STYLES[row["element"]]["color"]
     axes.plot([row["ratio_min"], row["ratio_max"]], [y, y], color=colour, linewidth=0.4)
-    axes.plot(
-        row["ratio"],
-        y,
-        color=colour,
-        marker="o",
-        markersize=2,
-        markerfacecolor="white" if row["status"] == "failed" else colour,
-        markeredgewidth=0.4,
-    )
+    axes.plot(row["ratio"], y, linestyle="none", **_mark(row["element"], row["status"]))
+
+
+def _mark(element, status):
+    style = ELEMENT_STYLES[element]
+    return {
+        "color": style["color"],
+        "marker": style["marker"],
+        "markersize": 2.2,
+        "markerfacecolor": "white" if status == "failed" else style["color"],
+        "markeredgewidth": 0.4,
+    }

@@ -1,39 +1,72 @@
 """The benchmark's curves: time and unknowns against error, time and memory against unknowns."""
 
-import math
-
 import matplotlib
 
-from signorini.figures.benchmark_style import SMALL, TITLES, scenes_of, style_of_series
+from signorini.figures.benchmark_style import (
+    SMALL,
+    TITLES,
+    add_key,
+    fit_logarithmic,
+    scenes_of,
+    style_of_rough,
+    style_of_series,
+)
 from signorini.figures.style import ELEMENT_STYLES, GREY, MM, TEXT_WIDTH, new_figure
 from signorini.report.curves import longest_series, spread
 
 MEGABYTE = 1e6
 QUANTITIES = {"total": ("seconds", 1.0), "memory": ("megabytes", MEGABYTE)}  # name and unit
+_LEAST = 1e5  # bytes: what is less is round-off of the allocator
+_MARGIN = 0.14
+_FEWEST = 1000  # unknowns: what fewer need is that of modules
 
 
 @matplotlib.rc_context(SMALL)
-def draw_error(series):
-    """Draw time against error: a row per scene, a column per norm.
+def draw_error(best, rough):
+    """Draw time against error: a row per norm, a column per scene.
 
     Parameters
     ----------
-    series : dict
-        (scene, element, method) -> rows of benchmark.csv with numbers, coarsest first.
+    best : dict
+        (scene, element, method) -> rows of benchmark.csv with numbers, coarsest first: one route
+        for each element of a scene.
+    rough : dict
+        The same of solutions to discretisation accuracy.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    figure, panels = _panels(series, list(TITLES))
-    for (scene, element, method), rows in series.items():
-        style = style_of_series(series, element, method)
-        for norm in TITLES:
-            shown = [row for row in rows if row[norm]]
-            _draw_times(panels[scene, norm], shown, norm, style)
-            _name_levels(panels[scene, norm], shown, norm, above=element == "P1")
-    _finish(panels, "seconds", TITLES)
+    scenes = scenes_of(best)
+    figure = new_figure(TEXT_WIDTH, 98 * MM)
+    panels = _panels_by_norm(figure, scenes, top=0.84, sharex="col")
+    for curves, style_of in ((best, _style_of_best), (rough, style_of_rough)):
+        for (scene, element, _), rows in curves.items():
+            for norm in TITLES:
+                shown = [row for row in rows if row[norm]]
+                _draw_times(panels[norm, scene], shown, norm, style_of(element))
+    for (scene, norm), ends in _ends(best).items():
+        _name_ends(panels[norm, scene], ends, norm)
+    for scene in scenes:
+        panels["l2", scene].set_title(_title(scene, best), fontsize=7)
+        panels["h1", scene].set_xlabel("seconds")
+    for axes in panels.values():
+        fit_logarithmic(axes, _MARGIN)
+    add_key(figure, panels["l2", scenes[0]], columns=2)
     return figure
+
+
+def _style_of_best(element):
+    style = {**ELEMENT_STYLES[element], "markersize": 2.5, "linewidth": 0.9}
+    return style | {"label": f"{element} by its fastest route", "zorder": 3}
+
+
+def _title(scene, best):
+    """The scene, and by which route each element is drawn."""
+    routes = {element: route for name, element, route in best if name == scene}
+    if len(set(routes.values())) == 1:
+        return f"{scene}\n{next(iter(routes.values()))}"
+    return f"{scene}\n" + ", ".join(f"{element} {route}" for element, route in routes.items())
 
 
 def _draw_times(axes, rows, norm, style):
@@ -41,51 +74,66 @@ def _draw_times(axes, rows, norm, style):
     axes.errorbar(times, errors, xerr=spread(rows, "total"), elinewidth=0.4, **style)
 
 
-def _name_levels(axes, rows, norm, above):
-    """Write the level beside every point."""
-    side, align = (1, "bottom") if above else (-1, "top")
-    for row in rows:
+def _ends(best):
+    """(scene, norm) -> the finest point of each of its curves that ends on another level."""
+    ends = {}
+    for (scene, _, _), rows in best.items():
+        for norm in TITLES:
+            known = [row for row in rows if row[norm]]
+            if known:
+                ends.setdefault((scene, norm), {}).setdefault(known[-1]["n"], known[-1])
+    return ends
+
+
+def _name_ends(axes, ends, norm):
+    """Write h below the finest points; where curves end on one level, below the first alone."""
+    for n, row in ends.items():
         axes.annotate(
-            f"{row['n']:g}",
+            f"1/{n:g}",
             (row["total"], row[norm]),
-            fontsize=4.5,
+            fontsize=5.5,
             color=GREY,
-            xytext=(0, side * 2.5),
+            xytext=(-2.5, -1.5),
             textcoords="offset points",
-            ha="center",
-            va=align,
+            ha="right",
+            va="top",
         )
 
 
 @matplotlib.rc_context(SMALL)
-def draw_growth(series, growth):
-    """Draw time and memory against unknowns, a row per scene, with the fitted exponents.
+def draw_growth(series):
+    """Draw time and memory against unknowns, a row per quantity, a column per scene.
 
     Parameters
     ----------
     series : dict
-        As for `draw_error`.
-    growth : sequence of dict
-        Rows with ``scene``, ``element``, ``method``, ``quantity`` and ``exponent``.
+        As `best` for `draw_error`, of all routes.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    keys = ("scene", "element", "method", "quantity")
-    exponents = {tuple(row[key] for key in keys): row["exponent"] for row in growth}
-    figure, panels = _panels(series, list(QUANTITIES))
+    scenes = scenes_of(series)
+    figure = new_figure(TEXT_WIDTH, 98 * MM)
+    labels = {quantity: name for quantity, (name, _) in QUANTITIES.items()}
+    panels = _panels_by(figure, labels, scenes, top=0.85)
     for (scene, element, method), rows in series.items():
         style = style_of_series(series, element, method)
         for quantity, (_, unit) in QUANTITIES.items():
-            exponent = exponents.get((scene, element, method, quantity))
-            label = style["label"] + ("" if exponent is None else f" {exponent:.2f}")
-            shown = [row for row in rows if row[quantity] > 0]
+            shown = [row for row in rows if quantity != "memory" or _tells(row)]
             dofs, values = [row["dofs"] for row in shown], [row[quantity] / unit for row in shown]
-            panels[scene, quantity].plot(dofs, values, **style | {"label": label})
-    labels = {quantity: name for quantity, (name, _) in QUANTITIES.items()}
-    _finish(panels, "unknowns", labels, rising=True)
+            panels[quantity, scene].plot(dofs, values, **style)
+    for scene in scenes:
+        panels["memory", scene].set_xlabel("unknowns")
+    for axes in panels.values():
+        fit_logarithmic(axes, _MARGIN)
+    add_key(figure, panels["total", scenes[0]], columns=4)
     return figure
+
+
+def _tells(row):
+    """Whether memory is that of the problem."""
+    return row["dofs"] >= _FEWEST and row["memory"] > _LEAST
 
 
 @matplotlib.rc_context(SMALL)
@@ -95,7 +143,7 @@ def draw_dofs(series):
     Parameters
     ----------
     series : dict
-        As for `draw_error`. The routes of an element share a curve.
+        As for `draw_growth`. The routes of an element share a curve.
 
     Returns
     -------
@@ -113,57 +161,40 @@ def draw_dofs(series):
     for axes in panels.values():
         axes.set(xscale="log", yscale="log")
         axes.minorticks_off()
+    for scene in scenes:
+        panels["h1", scene].set_xlabel("unknowns")
     panels["l2", scenes[0]].legend(loc="lower left")
     return figure
 
 
-def _panels_by_norm(figure, scenes):
+def _panels_by_norm(figure, scenes, top=0.93, sharex="all"):
     """Axes by (norm, scene): a row per norm, a column per scene."""
+    return _panels_by(figure, TITLES, scenes, top, sharex)
+
+
+def _panels_by(figure, titles, scenes, top, sharex="all"):
+    """Axes by (row, scene): a row per key of `titles`, a column per scene."""
     place = {
         "left": 0.075,
         "right": 0.995,
         "bottom": 0.11,
-        "top": 0.93,
-        "wspace": 0.12,
+        "top": top,
+        "wspace": 0.12 if sharex == "all" else 0.18,
         "hspace": 0.12,
     }
     rows = figure.subplots(
-        len(TITLES),
+        len(titles),
         len(scenes),
         squeeze=False,
-        sharex=True,
+        sharex=sharex,
         sharey="row",
         gridspec_kw=place,
     )
-    for title, row in zip(TITLES.values(), rows, strict=True):
+    for title, row in zip(titles.values(), rows, strict=True):
         row[0].set_ylabel(title)
     for scene, column in zip(scenes, rows.T, strict=True):
         column[0].set_title(scene, fontsize=7)
-        column[-1].set_xlabel("unknowns")
-    return _by_key(rows, TITLES, scenes)
-
-
-def _panels(series, columns):
-    """A figure with a row per scene, and its axes by (scene, column)."""
-    scenes = scenes_of(series)
-    figure = new_figure(TEXT_WIDTH, (9 + 38 * len(scenes)) * MM)
-    height = figure.get_figheight() / MM
-    place = {
-        "left": 0.075,
-        "right": 0.995,
-        "bottom": 8 / height,
-        "top": 1 - 4 / height,
-        "wspace": 0.16,
-        "hspace": 0.22,
-    }
-    rows = figure.subplots(
-        len(scenes),
-        len(columns),
-        squeeze=False,
-        sharex="col",
-        gridspec_kw=place,
-    )
-    return figure, _by_key(rows, scenes, columns)
+    return _by_key(rows, titles, scenes)
 
 
 def _by_key(rows, row_names, column_names):
@@ -172,34 +203,3 @@ def _by_key(rows, row_names, column_names):
         for row_name, row in zip(row_names, rows, strict=True)
         for column_name, axes in zip(column_names, row, strict=True)
     }
-
-
-def _finish(panels, xlabel, ylabels, rising=False):
-    """Set scales, titles and legends.
-
-    Where curves rise, every panel has a legend in its upper left corner; else only those of the
-    first row have one, in the upper right.
-    """
-    scenes = list(dict.fromkeys(scene for scene, _ in panels))
-    for (scene, key), axes in panels.items():
-        axes.set(xscale="log", yscale="log", ylabel=ylabels[key])
-        axes.set_title(scene, fontsize=7, pad=2)
-        axes.minorticks_off()
-        _whole_decades(axes, above=int(rising))  # room for the legend
-        if scene == scenes[-1]:
-            axes.set_xlabel(xlabel)
-        if rising or scene == scenes[0]:
-            axes.legend(
-                loc="upper left" if rising else "upper right",
-                fontsize=5.5,
-                handlelength=3,
-                labelspacing=0.1,
-                borderaxespad=0.1,
-            )
-
-
-def _whole_decades(axes, above=0):
-    """Let the ordinates run over whole decades, at least one, and some more above."""
-    low = math.floor(math.log10(axes.dataLim.y0))
-    high = math.ceil(math.log10(axes.dataLim.y1))
-    axes.set_ylim(10.0**low, 10.0 ** (max(high, low + 1) + above))

@@ -1,7 +1,11 @@
 """What the benchmark's figures have in common: small type, and a style for each series."""
 
+import math
+
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
 from signorini.errors.norms import NORMS, PAPER_NORMS
-from signorini.figures.style import ELEMENT_STYLES, STYLE
+from signorini.figures.style import ELEMENT_STYLES, FAINT, GREY, STYLE
 
 SMALL = STYLE | {
     "font.size": 7,
@@ -64,3 +68,74 @@ def style_of_series(series, element, method):
         "linewidth": 0.8,
         "label": f"{element} {method}",
     }
+
+
+_SHORT = 1.4  # decades, below which there may be but one label
+_ROUGH = {
+    "P1": {"color": GREY, "marker": "v", "markerfacecolor": "white"},
+    "CR": {"color": "#9ec1e6", "marker": "^"},  # a light blue
+}
+
+
+def style_of_rough(element):
+    """Return the options of the curve to discretisation accuracy: dotted, and paler.
+
+    Parameters
+    ----------
+    element : {"P1", "CR"}
+
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
+    >>> style_of_rough("P1")["label"]
+    'P1 by multigrid to discretisation accuracy'
+    """
+    label = f"{element} by multigrid to discretisation accuracy"
+    style = {"linestyle": (0, (1, 1.2)), "markersize": 2.5, "linewidth": 0.9, "label": label}
+    return _ROUGH.get(element, {"color": FAINT}) | style
+
+
+def fit_logarithmic(axes, margin):
+    """Make axes logarithmic and as long as their curves, labelled at decades, or closer if short.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    margin : float
+        Beside the curves, as a share of their length.
+    """
+    if not math.isfinite(axes.dataLim.minposx):
+        return  # nothing is drawn
+    axes.set(xscale="log", yscale="log")
+    axes.margins(margin)
+    axes.autoscale_view()
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_formatter(NullFormatter())
+        low, high = axis.get_view_interval()
+        if math.log10(high / low) < _SHORT:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def add_key(figure, axes, columns):
+    """Put the key of the curves of some axes above all of a figure's.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    axes : matplotlib.axes.Axes
+    columns : int
+    """
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(
+        handles,
+        labels,
+        loc="upper center",
+        bbox_to_anchor=(0.53, 1.0),
+        ncols=columns,
+        handlelength=3,
+        borderaxespad=0.1,
+    )

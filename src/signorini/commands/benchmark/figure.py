@@ -13,14 +13,10 @@ from signorini.figures import benchmark
 from signorini.figures.style import save_figure
 from signorini.storage import read_csv, read_json
 from signorini.studies.benchmark.columns import POINT_NUMBERS, RIVAL_NUMBERS, series
+from signorini.studies.benchmark.guarantee_costs import GUARANTEED_NUMBERS, by_run
+from signorini.studies.benchmark.routes import best, in_full, rough_only
 
-_FIGURES = {
-    "error": lambda curves, rivals, summary: benchmark.draw_error(curves),
-    "dofs": lambda curves, rivals, summary: benchmark.draw_dofs(curves),
-    "growth": lambda curves, rivals, summary: benchmark.draw_growth(curves, summary["growth"]),
-    "stages": lambda curves, rivals, summary: benchmark.draw_stages(curves),
-    "rivals": lambda curves, rivals, summary: benchmark.draw_rivals(rivals, summary["titles"]),
-}
+_FIGURES = ("error", "dofs", "growth", "guaranteed", "rivals")
 
 
 def add_arguments(parser):
@@ -34,10 +30,23 @@ def add_arguments(parser):
 
 def run(arguments):
     """Draw."""
-    points = read_csv(arguments.folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ALWAYS_NAMED))
-    rivals = read_csv(arguments.folder / "rivals.csv", numbers=RIVAL_NUMBERS)
-    summary = read_json(arguments.folder / "summary.json")
-    figure = _FIGURES[arguments.figure](series(points), rivals, summary)
+    figure = _drawn(arguments.figure, arguments.folder)
     for path in arguments.output:
         save_figure(figure, path)
     return Outcome(f"figure: benchmark, {arguments.figure}")
+
+
+def _drawn(name, folder):
+    if name == "rivals":
+        rivals = read_csv(folder / "rivals.csv", numbers=RIVAL_NUMBERS)
+        return benchmark.draw_rivals(rivals, read_json(folder / "summary.json")["titles"])
+    if name == "guaranteed":
+        rows = read_csv(folder / "benchmark_guaranteed.csv", numbers=GUARANTEED_NUMBERS)
+        return benchmark.draw_guaranteed(by_run(rows))
+    points = read_csv(folder / "benchmark.csv", numbers=(*POINT_NUMBERS, *ALWAYS_NAMED))
+    curves = series(points)
+    if name == "error":
+        return benchmark.draw_error(best(curves), rough_only(curves))
+    if name == "dofs":
+        return benchmark.draw_dofs(in_full(curves))
+    return benchmark.draw_growth(curves)

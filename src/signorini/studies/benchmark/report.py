@@ -1,9 +1,12 @@
 """The page of the benchmark: the numbers and rows that fill ``page.md.j2``."""
 
 from signorini.errors.norms import PAPER_NORMS
+from signorini.report.curves import stacked_shares
 from signorini.report.document import render
 from signorini.solvers.solution import INACCURATE, SOLVED
-from signorini.studies.benchmark.columns import COUNTS, SERIES, TOLERANCE, series
+from signorini.studies.benchmark.accuracy import finest
+from signorini.studies.benchmark.columns import COUNTS, SERIES, STAGES, TOLERANCE, series
+from signorini.studies.benchmark.routes import ROUGH, in_full
 from signorini.studies.benchmark.summary import TARGETS, better, fastest
 
 PAGE = "studies/benchmark/page.md.j2"
@@ -34,7 +37,10 @@ def page(layout, points, rivals, summary, machine, settings):
     shown = {
         "judged": {"tolerance": TOLERANCE, "solved": SOLVED, "inaccurate": INACCURATE},
         "difference": max(row["difference"] for rows in curves.values() for row in rows),
-        "methods": list(dict.fromkeys(method for _, _, method in curves)),
+        "methods": list(dict.fromkeys(method for _, _, method in in_full(curves))),
+        "accuracy": _accuracy(curves, summary["accuracy"]),
+        "guaranteed": _guaranteed(summary["guaranteed"]),
+        "loads": [row["load"] for row in points if row["load"] is not None],
         "counts": COUNTS,
         "titles": titles,
         "bias": summary["reference_bias"],
@@ -44,6 +50,7 @@ def page(layout, points, rivals, summary, machine, settings):
     }
     shown |= _reach(curves, summary["reach"]) | _compared(shown["comparisons"])
     shown["answer"] = _answer(shown["reach"], summary)
+    shown["times"] = _times(summary["growth"])
     return render(PAGE, layout, **shown, machine=machine, settings=settings)
 
 
@@ -67,7 +74,50 @@ def _finest(curves, growth):
     for row in growth:
         key = tuple(row[name] for name in SERIES)
         exponents.setdefault(key, {})[row["quantity"]] = row["exponent"]
-    return [rows[-1] | {"exponents": exponents.get(key, {})} for key, rows in curves.items()]
+    return [
+        rows[-1] | {"exponents": exponents.get(key, {}), "shares": _shares(rows[-1])}
+        for key, rows in curves.items()
+    ]
+
+
+def _shares(row):
+    """Percent of the time that each stage takes."""
+    return {stage: 100.0 * share for stage, _, share in stacked_shares(row, STAGES)}
+
+
+def _accuracy(curves, compared):
+    """Multigrid as far as it pays: its finest levels, where it pays, and where it is not told."""
+    rows = finest(compared)
+    told = [row for (_, _, route), rows in curves.items() if route == ROUGH for row in rows]
+    return {
+        "rows": rows,
+        "pays": [row for row in rows if row["pays"] > 0],
+        "does_not": [row for row in rows if row["pays"] < 0],
+        "most": max(rows, key=lambda row: row["less"], default=None),
+        "not_told": [row for row in told if row["note"]],
+        "levels": len(told),
+    }
+
+
+def _guaranteed(rows):
+    """What a guarantee costs: the ratios on either kind of meshes, and the sooner kind by scene."""
+    by_scene = {}
+    for row in rows:
+        by_scene.setdefault(row["scene"], {})[row["element"], row["meshes"]] = row
+    gains = {}
+    for scene, runs in by_scene.items():
+        uniform, adaptive = (runs["P1", meshes] for meshes in ("uniform", "adaptive"))
+        gains[scene] = uniform | {"gain": uniform["guaranteed"] / adaptive["guaranteed"]}
+    dearer = {
+        meshes: [row["dearer"] for row in rows if row["meshes"] == meshes]
+        for meshes in ("uniform", "adaptive")
+    }
+    return {
+        "rows": rows,
+        "dearer": dearer,
+        "adaptive": {scene: row for scene, row in gains.items() if row["gain"] > 1.0},
+        "uniform": {scene: row for scene, row in gains.items() if row["gain"] <= 1.0},
+    }
 
 
 def _comparisons(summary):
@@ -87,11 +137,11 @@ def _compared(comparisons):
 
 
 def _answer(reached, summary):
-    """What the page begins with: who is sooner, how time grows, ours against others."""
+    """What the page begins with: who is sooner, and ours against others."""
     firsts = [row["better"]["total"][0] or "even" for row in reached if "total" in row["better"]]
     counts = {key: sum(row[key] for row in summary["comparisons"]) for key in _OUTCOMES}
     found = {"errors": len(firsts), "sooner": {key: firsts.count(key) for key in _SOONER}}
-    return found | counts | {"pairs": sum(counts.values()), "times": _times(summary["growth"])}
+    return found | counts | {"pairs": sum(counts.values())}
 
 
 def _times(growth):
@@ -109,8 +159,8 @@ def tables(summary):
     Returns
     -------
     dict
-        Name -> rows: what each error costs by each route, what a coarser reference changes, and
-        the rivals against each route of ours.
+        Name -> rows: what each error costs by each route, what a coarser reference changes, the
+        rivals against each route of ours, and multigrid as far as it pays against it in full.
     """
     verdicts = summary["verdicts"]
     compared = [row | verdicts[row["rival"]] for row in summary["comparisons"]]
@@ -118,4 +168,5 @@ def tables(summary):
         "reach": summary["reach"],
         "bias": summary["reference_bias"],
         "comparisons": compared,
+        "accuracy": summary["accuracy"],
     }

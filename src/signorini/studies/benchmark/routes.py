@@ -25,3 +25,37 @@ def in_full(series):
     [('corner', 'P1', 'multigrid')]
     """
     return {key: rows for key, rows in series.items() if key[2] != ROUGH}
+
+
+def rough_only(series):
+    """The series to discretisation accuracy, as `in_full`."""
+    return {key: rows for key, rows in series.items() if key[2] == ROUGH}
+
+
+def best(series):
+    """The series of the best route in full, for each scene and element.
+
+    Parameters
+    ----------
+    series : dict
+        Of `columns.series`.
+
+    Returns
+    -------
+    dict
+        That of least time on the finest level whose error is known.
+
+    Examples
+    --------
+    >>> slow, fast = ([{"n": 8, "total": seconds, "h1": 0.1}] for seconds in (2.0, 1.0))
+    >>> list(best({("corner", "P1", "direct"): slow, ("corner", "P1", "fourier"): fast}))
+    [('corner', 'P1', 'fourier')]
+    """
+    chosen = {}
+    for key, rows in in_full(series).items():
+        known = [row for row in rows if row["h1"]]
+        if known:
+            rank = -known[-1]["n"], known[-1]["total"]
+            chosen.setdefault(key[:2], []).append((rank, key))
+    keys = [min(ranked)[1] for ranked in chosen.values()]
+    return {key: series[key] for key in keys}

@@ -65,7 +65,7 @@ def test_every_element_route_and_level_is_measured(built):
 
 def test_solutions_to_discretisation_accuracy_have_errors_of_their_own(built):
     project, run, _ = built
-    assert run.jobs["benchmark_rough"] == 2  # of each element, on the level shown
+    assert run.jobs["benchmark_rough"] == 4  # of each element and level
     found = rows(project, "benchmark.csv")
     shown = [row for row in found if row["method"] == ROUGH and row["n"] == "2"]
     assert [bool(row["h1"]) for row in shown] == [True, True]

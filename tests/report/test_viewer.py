@@ -1,6 +1,7 @@
 """The viewer of a scene: what it shows are the solutions, and a browser can turn through them."""
 
 import base64
+import json
 
 import numpy as np
 import pytest
@@ -13,8 +14,8 @@ from signorini.api.scene_study import scene_rows
 from signorini.api.solving import solve_levels
 from signorini.commands.program import main
 from signorini.fem.elements import find_element
-from signorini.report.viewer import kept_points, viewer_data
-from signorini.report.viewer_page import viewer_page
+from signorini.report.viewer import MOST_TRIANGLES, kept_points, viewer_data
+from signorini.report.viewer_page import plotly_script, viewer_page
 
 SCENE = load_scene("config/scenes/punch.yaml")
 DOMAIN = SCENE.problem_statement.triangulations
@@ -85,6 +86,15 @@ def test_the_critical_points_are_those_of_the_exact_solution(data):
 def test_components_of_a_contact_line_are_apart_and_keep_their_ends():
     component, nothing = np.repeat([1, 2], [7, 5]), np.zeros(12, bool)
     assert kept_points(component, nothing, most=3).tolist() == [0, 4, 6, 7, 8, 11]
+
+
+def test_the_page_is_fast_because_it_is_small(data, page):
+    """Plotly draws within two seconds what has no more than this (docs/look.md)."""
+    of_data = len(json.dumps(data)) / len(data["solutions"])
+    assert len(page.encode()) - len(plotly_script().encode()) < 1e6
+    assert of_data < 100e3
+    for mesh in data["meshes"]:
+        assert unpacked(mesh["t"]).size <= 3 * MOST_TRIANGLES
 
 
 def test_a_text_of_a_scene_cannot_end_its_element(data):

@@ -130,6 +130,7 @@ rule viewer:
         mesh=mesh_file,
         solutions=solution_files,
         tables=viewer_tables,
+        certificates=certificates_if_any,
     output:
         report(
             "results/{scene}/viewer.html",

@@ -1,7 +1,8 @@
 """Write the viewer of a scene: a page with its solutions as surfaces to turn, for any browser.
 
-The solutions are those of a build, and beside them its errors.csv and certificates.csv where it has
-them. Without --results the scene is solved here, and errors are left out.
+The solutions are those of a build, and beside them its errors.csv, certificates.csv and the local
+contributions of its certificates where it has them. Without --results the scene is solved here, and
+these are left out.
 
 example:
   signorini viewer config/scenes/punch.yaml --results results/punch -o viewer.html
@@ -10,6 +11,7 @@ example:
 from pathlib import Path
 
 from signorini.api.solving import solve_levels
+from signorini.certificate.level import read_level
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.exceptions import SceneError
@@ -48,6 +50,7 @@ def run(arguments):
             _solutions(scene, folder),
             _table(folder, "errors.csv"),
             _table(folder, "certificates.csv"),
+            _contributions(scene, folder),
         )
     page = viewer_page(data)
     write_text(arguments.output, page)
@@ -76,3 +79,16 @@ def _solutions(scene, folder):
 def _table(folder, name):
     """The rows of a table of a build, or none where there is no such table."""
     return read_csv(folder / name) if folder and (folder / name).is_file() else ()
+
+
+def _contributions(scene, folder):
+    """What each triangle contributes to the bounds of a build, where it has certificates."""
+    if folder is None:
+        return {}
+    files = [folder / "certificates" / f"n{n}.npz" for n in scene.levels]
+    levels = [read_level(file) for file in files if file.is_file()]
+    return {
+        (element, level.n): level.of_triangles(element)["contribution"]
+        for level in levels
+        for element in level.elements
+    }

@@ -45,6 +45,38 @@ def field_of(mesh, solution, most_triangles=20000):
     }
 
 
+def sums_on_coarser(mesh, values, most_triangles):
+    """Add up what triangles have, on the mesh that `field_of` shows.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    values : ndarray, shape (nt,)
+        A value of each triangle.
+    most_triangles : int
+        As of `field_of`.
+
+    Returns
+    -------
+    ndarray
+        A sum for each triangle that is shown; all of them together are those of `values`.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> sums_on_coarser(signorini.rectangle(4), np.ones(32), most_triangles=8).tolist()
+    [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]
+    """
+    while mesh.number_of_triangles > most_triangles:
+        coarser = mesh.coarser()
+        if coarser is None:
+            break
+        corners = np.tile(values, (3, 1))
+        values = mesh.vertex_children(corners)[:, 0].sum(axis=0)
+        mesh = coarser
+    return values
+
+
 def _coarsened(mesh, values, most_triangles):
     while mesh.number_of_triangles > most_triangles:
         coarser = mesh.coarser()

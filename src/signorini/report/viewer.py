@@ -12,7 +12,7 @@ import numpy as np
 from signorini.errors.norms import NORMS
 from signorini.fem.contact_line import contact_rows, critical_places
 from signorini.fem.element_facts import ELEMENT_FACTS
-from signorini.report.field import field_of
+from signorini.report.field import field_of, sums_on_coarser
 from signorini.solvers.stored import mesh_of
 
 MOST_TRIANGLES = 4096  # of a surface, where the mesh has coarser ones
@@ -21,7 +21,7 @@ _LINE = ("s", "x", "y", "u", "obstacle", "flux", "threshold")
 _DIGITS = 4  # of a guaranteed bound
 
 
-def viewer_data(scene, domain, solutions, errors=(), certificates=()):
+def viewer_data(scene, domain, solutions, errors=(), certificates=(), contributions=None):
     """Gather what the viewer of a scene shows.
 
     Parameters
@@ -35,6 +35,8 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=()):
         Rows of errors.csv, as text or numbers.
     certificates : sequence of mapping, optional
         Rows of certificates.csv: ``element``, ``n``, ``lower`` and ``upper``.
+    contributions : mapping of (str, int) to ndarray, optional
+        Element and n -> what each triangle of the mesh has in the square of the guaranteed bound.
 
     Returns
     -------
@@ -52,7 +54,7 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=()):
     >>> data["levels"], len(data["solutions"]), len(data["meshes"])
     ([8, 16, 32, 64], 8, 3)
     """
-    meshes, shown = {}, []
+    meshes, shown, contributions = {}, [], contributions or {}
     errors, certificates = _by_solution(errors), _by_solution(certificates)
     for solution in solutions:
         mesh = mesh_of(domain, solution)
@@ -61,6 +63,7 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=()):
             _shown(mesh, solution, meshes)
             | {"errors": _errors(errors.get(key, {}), scene.document["norms"])}
             | {"certificate": _certificate(certificates.get(key))}
+            | {"shares": _shares(mesh, contributions.get(key))}
         )
     norms = [norm for norm in scene.document["norms"] if any(norm in s["errors"] for s in shown)]
     return {
@@ -91,6 +94,14 @@ def _certificate(row):
         str(Context(prec=_DIGITS, rounding=rounding).create_decimal(str(row[end])))
         for end, rounding in ends
     ]
+
+
+def _shares(mesh, contributions):
+    """Percent of all contributions that the triangles of the surface have; None without any."""
+    if contributions is None:
+        return None
+    found = sums_on_coarser(mesh, contributions, MOST_TRIANGLES)
+    return packed(100.0 * found / found.sum(), "f4")
 
 
 def _shown(mesh, solution, meshes):

@@ -13,7 +13,7 @@ FLOORS = (
     *("judge", "generated", "rivals", "open_choices"),
     *("report", "sweeps", "publication", "figures", "api"),
     *("studies", "studies.benchmark", "studies.sensitivity", "studies.stability"),
-    *("studies.theory", "studies.adaptive", "studies.guaranteed"),
+    *("studies.theory", "studies.adaptive", "studies.guaranteed", "provenance"),
     *("commands", "__main__"),
 )
 

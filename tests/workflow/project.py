@@ -18,8 +18,8 @@ TARGETS = {"default", "all"}
 # Command -> its file.
 FILES = {name: f"src/{module_of(name).replace('.', '/')}.py" for name in commands()}
 LATEX = bool(shutil.which("latexmk") and shutil.which("pdflatex"))
-# Folders that differ from run to run; everything else under results is a result.
-RECORDS = {"logs", "benchmarks"}
+# What differs from run to run; everything else under results is a result.
+RECORDS = {"logs", "benchmarks", "provenance.json"}
 
 SMALL = """\
 title: A scene for tests
@@ -186,8 +186,8 @@ class Project:
         )
 
     def results(self):
-        """Path below results -> content of every result; no logs, benchmarks and time stamps that
-        Snakemake keeps.
+        """Path below results -> content of every result; no logs, benchmarks, provenance and time
+        stamps that Snakemake keeps.
         """
         files = [path for path in (self / "results").rglob("[!.]*") if path.is_file()]
         below = {path.relative_to(self / "results"): path for path in files}

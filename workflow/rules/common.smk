@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import shutil
+import subprocess
 import sys
 from contextlib import suppress
 from functools import cache
@@ -145,3 +146,12 @@ check_results()
 QUICK = CONFIG["quick"]
 QUICK_OPTION = "--quick" if QUICK else ""
 STUDIES = "results/quick" if QUICK else "results/studies"
+
+
+def tell_provenance(state):
+    """Say in results/provenance.json what a run that did something made, and how it ended; no run fails for it."""
+    words = ["--state", state, "--cores", str(workflow.cores), f"--asked={' '.join(sys.argv[1:])}"]
+    failed = sorted({job.name for job in workflow.scheduler.failed})
+    words += ["--failed", *failed] if failed else []
+    command = [sys.executable, "-m", "signorini", "provenance", "results", *words]
+    subprocess.run(command, stdout=subprocess.DEVNULL, check=False)

@@ -55,6 +55,9 @@ CATALOGUE = {
         "macros": "write every number of the text as a LaTeX macro",
         "typeset": "typeset a manuscript with its tables and figures",
     },
+    "An artifact": {
+        "provenance": "say what results were built from, by what and where",
+    },
     "The benchmark": {
         "benchmark machine": "describe the machine, the versions and the load",
         "benchmark point": "measure an element, a level and a route of a scene",

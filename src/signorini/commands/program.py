@@ -131,6 +131,8 @@ def _run(module, arguments):
         print("error: interrupted; nothing was left half written", file=sys.stderr)
         return INTERRUPTED
     gc.freeze()
+    if outcome is None:  # another process tells it
+        return 0
     _print(_told(outcome, arguments.json, time.perf_counter() - start))
     return 0
 

@@ -3,23 +3,36 @@
 The outcome tells the status, the residual of the Karush-Kuhn-Tucker conditions, the estimated
 relative errors of u and of the contact forces, and by which route it was solved and why.
 
-example:
+With PETSc (make petsc), processes on one machine or on several share a solve: each has its part of
+the mesh, of the matrix and of u. The first one gathers u where a file is asked for.
+
+examples:
   signorini solve config/scenes/paper.yaml --element CR --n 64 -o u.npz
+  mpiexec -n 2 signorini solve config/scenes/paper.yaml --element CR --n 64 --method petsc -o u.npz
 """
 
 import logging
+from functools import partial
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, check_n, domain_of, scene_of
 from signorini.exceptions import SceneError
-from signorini.fem.element_facts import ELEMENT_NAMES
+from signorini.fem.element_facts import ELEMENT_FACTS, ELEMENT_NAMES
+from signorini.fem.elements import find_element
 from signorini.fem.problem import discretize_on
 from signorini.scene.memory_check import check_level
 from signorini.scene.scene import naming
 from signorini.solvers import solve
+from signorini.solvers.petsc.processes import (
+    agreed,
+    check_alone,
+    check_room,
+    in_one_voice,
+    processes,
+)
 from signorini.solvers.routes import ALL_METHODS
 from signorini.solvers.select import ACCURACIES
-from signorini.solvers.stored import write_solution
+from signorini.solvers.stored import write_solution, write_stored
 
 _log = logging.getLogger(__name__)
 
@@ -55,7 +68,12 @@ def run(arguments):
     method = arguments.method or scene.document["solver"]["method"]
     accuracy = arguments.accuracy or scene.document["solver"]["accuracy"]
     with naming(scene.source):
+        check_alone(method)
+        comm = processes() if method == "petsc" else None
         domain = domain_of(scene, arguments.mesh)
+        if comm is not None:
+            solve_here = partial(_solve_together, comm, scene, domain, element, n)
+            return in_one_voice(comm, partial(solve_here, arguments.output))
         check_level(scene.problem_statement, element, n, method, domain)
         _log.info("%s n = %d: mesh", element, n)
         mesh = domain.level(n)
@@ -65,7 +83,28 @@ def run(arguments):
         solution = solve(problem, method, accuracy=accuracy)
     if arguments.output:
         write_solution(arguments.output, problem, solution, n, domain.mesh_size(n))
-    return Outcome(_told(solution, element, n), _data(solution, element, n))
+    dofs = problem.free.size
+    return Outcome(_told(solution, dofs, element, n), _data(solution, dofs, element, n))
+
+
+def _solve_together(comm, scene, domain, element, n, output):
+    """Solve with other processes; the outcome on the first of them, None on the others."""
+    from signorini.solvers.petsc.gather import gathered
+    from signorini.solvers.petsc.piece import make_piece
+    from signorini.solvers.petsc.together import solve_together
+
+    facts, statement = ELEMENT_FACTS[element], scene.problem_statement
+    check = partial(check_room, comm, domain.count_triangles(n), facts.petsc_bytes)
+    agreed(comm, check)
+    make = partial(make_piece, domain, find_element(element), n, statement, comm)
+    piece = agreed(comm, make)
+    solution, joined = solve_together(piece, comm)
+    record = gathered(solution, joined, piece, domain, n) if output else None
+    agreed(comm, lambda: record and write_stored(output, record))
+    if comm.rank:
+        return None
+    dofs = solution.dofs
+    return Outcome(_told(solution, dofs, element, n), _data(solution, dofs, element, n))
 
 
 def _level(scene, arguments):
@@ -81,9 +120,9 @@ def _level(scene, arguments):
     return arguments.element, arguments.n
 
 
-def _told(solution, element, n):
+def _told(solution, dofs, element, n):
     return (
-        f"{element} n = {n}: {solution.problem.free.size} free dofs, {solution.status}, "
+        f"{element} n = {n}: {dofs} free dofs, {solution.status}, "
         f"KKT residual {solution.residual:.1e}, relative error of u {solution.accuracy:.1e} and of "
         f"the contact forces {solution.multiplier_accuracy:.1e}, "
         f"undecided {solution.undecided.sum()}, active-set steps {solution.iterations}; "
@@ -91,11 +130,11 @@ def _told(solution, element, n):
     )
 
 
-def _data(solution, element, n):
+def _data(solution, dofs, element, n):
     return {
         "element": element,
         "n": n,
-        "dofs": int(solution.problem.free.size),
+        "dofs": int(dofs),
         "in_contact": int(solution.active.sum()),
         "undecided": int(solution.undecided.sum()),
         "status": solution.status,

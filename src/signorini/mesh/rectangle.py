@@ -88,6 +88,27 @@ class Rectangle:
         >>> rectangle.level(4).number_of_triangles
         64
         """
+        check_memory(self.count_triangles(n), GRID if self.uniform else MESH, f"n = {n}")
+        grid = self.grid(n)
+        return grid if self.uniform else self._cut((grid.nx, grid.ny), grid.origin, grid.size)
+
+    def grid(self, n):
+        """The grid of level n, whether its memory is there or not; it takes none before it is used.
+
+        Parameters
+        ----------
+        n : int
+
+        Returns
+        -------
+        Grid
+            The labels are those of the sides, or where the boundary is given by formulas none.
+
+        Raises
+        ------
+        MeshError
+            As `level`, but for the memory.
+        """
         from signorini.mesh.resolution import check_resolution
 
         counts = self.counts(n)
@@ -95,11 +116,8 @@ class Rectangle:
         upper = [start + length for start, length in zip(origin, size, strict=True)]
         spacing = [length / count for length, count in zip(size, counts, strict=True)]
         check_resolution(origin, upper, spacing, "domain")
-        check_memory(self.count_triangles(n), GRID if self.uniform else MESH, f"n = {n}")
-        if self.uniform:
-            labels = tuple(self.boundary[side] for side in SIDES)
-            return Grid(*counts, origin, size, self.diagonal, labels)
-        return self._cut(counts, origin, size)
+        labels = tuple(self.boundary.get(side, "") for side in SIDES)
+        return Grid(*counts, origin, size, self.diagonal, labels)
 
     def _cut(self, counts, origin, size):
         """The triangulation that is no `Grid`."""

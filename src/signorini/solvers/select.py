@@ -86,7 +86,7 @@ def _solved(problem, method, reason, guess, wanted):
     active, c = result.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
     residual, _ = kkt_residual(shifted, u)
-    accuracy = _accuracy(result, constant)
+    accuracy = accuracy_of(result, constant)
     status = _checked_status(problem, method, residual, accuracy, result)
     multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
@@ -216,7 +216,7 @@ def _checked_status(problem, method, residual, accuracy, result):
         return "discretisation"
     if not accuracy <= USELESS_ACCURACY:
         raise SolverError(f"domain: no digit of the solution survives rounding: {_causes(problem)}")
-    status = _status(residual, accuracy, result)
+    status = proved_status(residual, accuracy, result)
     if status == "failed":
         raise SolverError(
             f"domain: {problem.element} {method}: KKT residual {residual:.2e} is above 1e-6; "
@@ -225,13 +225,13 @@ def _checked_status(problem, method, residual, accuracy, result):
     return status
 
 
-def _status(residual, accuracy, result):
+def proved_status(residual, accuracy, result):
     """That of a solution, with a margin where the contact set is not certain."""
     margin = _UNDECIDED_MARGIN if result.undecided.any() else 1.0
     return status_of(residual, margin * accuracy, result.multiplier_accuracy)
 
 
-def _accuracy(result, constant):
+def accuracy_of(result, constant):
     """That of u itself, whose last bit is relative to the constant, too.
 
     It is relative to the variation of u; or to its size, where u is a constant but for that last

@@ -113,7 +113,18 @@ def write_solution(path, problem, solution, n, h):
     >>> again.status, again.dofs
     ('solved', 72)
     """
-    parts = vars(stored(problem, solution, n, h))
+    write_stored(path, stored(problem, solution, n, h))
+
+
+def write_stored(path, record):
+    """Store a `StoredSolution`, so that `read_solution` reads it.
+
+    Parameters
+    ----------
+    path : str or Path
+    record : StoredSolution
+    """
+    parts = vars(record)
     kept = {key: value for key, value in parts.items() if value is not _ABSENT.get(key, _KEPT)}
     write_npz(path, kind="solution", **kept)
 

@@ -113,7 +113,8 @@ class _State:
             stalled = step > _STALLED * before
             if stalled and step > _ACCEPTED * size:
                 break
-            if stalled or self.remaining <= 0.5 * EPS * size:
+            small = before < np.inf and self.remaining <= 0.5 * EPS * size
+            if stalled or small:  # never at the first, whose forces have none before them
                 return
             before = step
         raise SolverError(

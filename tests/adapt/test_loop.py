@@ -12,6 +12,7 @@ from signorini.adapt.record import Record, key_of, read_picture, rows_of, write_
 from signorini.commands.program import main
 from signorini.errors.exact import ExactErrors
 from signorini.exceptions import MeshError, StorageError
+from signorini.fem.elements import find_element
 from signorini.mesh.check import check_triangulation
 
 ROOT = Path(__file__).parents[2]
@@ -49,6 +50,37 @@ def test_the_bound_is_a_bound_on_every_mesh(name):
             assert certificate.lower <= error * (1 + 1e-6)
             assert error <= certificate.upper * (1 + 1e-6)
             assert certificate.upper < 1.25 * error
+
+
+@pytest.mark.parametrize("name", ["l-shape", "notch", "inclusion", "many-contacts"])
+def test_the_bound_is_a_bound_where_only_a_finer_certificate_knows(name):
+    """|u - u_h| lies within the bound of a fine P1 solution of its distance to u_h."""
+    *steps, last = run(name)
+    fine, within = slopes_of(last, "P1"), last.certificates["P1"].upper
+    k = last.solutions["P1"].problem.coefficient
+    weight = last.mesh.area * (1.0 if k is None else k)
+    for number, step in enumerate(steps[:-3]):
+        cells = ancestors([*steps[number + 1 :], last])
+        for element, certificate in step.certificates.items():
+            away = slopes_of(step, element)[:, cells] - fine
+            distance = np.sqrt((weight * away**2).sum())
+            assert certificate.lower <= distance + within
+            assert certificate.upper >= distance - within
+            assert distance > 1.5 * within  # else it would show nothing
+
+
+def slopes_of(step, element):
+    """grad u_h on each triangle, (2, nt)."""
+    u = step.solutions[element].u
+    return step.mesh.gradients(find_element(element).vertex_values(step.mesh, u))
+
+
+def ancestors(finer):
+    """The triangle, before these steps, that each of the last one's lies in."""
+    cells = np.arange(finer[-1].mesh.number_of_triangles)
+    for step in reversed(finer):
+        cells = step.mesh.ancestor[cells]
+    return cells
 
 
 @pytest.mark.parametrize("element", ["P1", "CR"])

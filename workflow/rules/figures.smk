@@ -101,6 +101,51 @@ rule figures:
         "python3 -m signorini figures {input.scene:q} {params.options} -o {output:q} 2>&1 | tee {log:q}"
 
 
+# What is local: errors, jumps and parts of bounds, triangle by triangle, of the finest level.
+rule details:
+    input:
+        library("details"),
+        scene=ancient(scene_file),
+        mesh=mesh_file,
+        reference=reference_file,
+        certificate=certificate_if_any,
+        solutions=finest_of_each,
+    output:
+        "results/{scene}/details.npz",
+    log:
+        "results/{scene}/logs/details.log",
+    benchmark:
+        "results/{scene}/benchmarks/details.tsv"
+    params:
+        content=content("details"),
+        statement=statement,
+        reference=reference_option,
+        certificate=details_certificate,
+    shell:
+        "python3 -m signorini details {input.scene:q} {input.solutions:q} --mesh {input.mesh:q}"
+        " {params.reference} {params.certificate} -o {output:q} 2>&1 | tee {log:q}"
+
+
+rule figures_of_details:
+    input:
+        library("draw-details"),
+        details="results/{scene}/details.npz",
+    output:
+        report(
+            directory("results/{scene}/details"),
+            patterns=["{figure}.png"],
+            caption="../report/details.rst",
+            category="{scene}",
+            labels={"shows": "details: {figure}"},
+        ),
+    log:
+        "results/{scene}/logs/figures_of_details.log",
+    params:
+        content=content("draw-details"),
+    shell:
+        "python3 -m signorini draw-details {input.details:q} -o {output:q} 2>&1 | tee {log:q}"
+
+
 rule gallery:
     input:
         library("gallery"),

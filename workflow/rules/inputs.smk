@@ -262,6 +262,11 @@ def certificate_option(wildcards, input):
     return f"--certificates {files}" if files else ""
 
 
+def details_certificate(wildcards, input):
+    """Option of the details for a certificate, where there is one."""
+    return f"--certificate {quote(str(input.certificate))}" if input.certificate else ""
+
+
 def certifiable_scenes():
     """Every scene of which guaranteed bounds can be had: the triangles fill its body."""
     return [

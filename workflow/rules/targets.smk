@@ -25,6 +25,7 @@ def scene_output(name):
     files += ["expect.txt"] if "expect" in asked.document else []
     endings = ("vtu", "pvd") if "vtu" in outputs else ()
     files += [f"vtu/{element}.{ending}" for element in asked.elements for ending in endings]
+    files += ["details"] if "details" in outputs else []
     files += ["viewer.html"] if "viewer" in outputs else []
     files += (named_figures(name) or ["figures"]) if "figures" in outputs else []
     built = [f"results/{name}/{file}" for file in files]

@@ -34,6 +34,8 @@ CATALOGUE = {
         "field": "prepare a solution for a figure",
         "contact-line": "tabulate what happens along the contact part",
         "figures": "draw the figures of a scene",
+        "details": "measure errors, jumps and bounds triangle by triangle",
+        "draw-details": "draw the mesh, and errors, jumps and bounds on it",
         "gallery": "draw the solutions of many scenes on one sheet",
         "viewer": "write a page on which the solutions can be turned",
         "vtu": "write a solution as VTU, for ParaView",

@@ -132,7 +132,7 @@ def paint(axes, field, frame, thickness=1.0):
     """
     exponent = unit_exponent(field["range"])
     contours = _draw_contours(axes, field, frame, 10.0**exponent, thickness)
-    _draw_boundary(axes, field, frame, thickness)
+    draw_boundary(axes, field, frame, thickness)
     _draw_critical_points(axes, field, frame, thickness)
     axes.set(xlim=(frame.low[0], frame.high[0]), ylim=(frame.low[1], frame.high[1]))
     for side in ("left", "bottom"):
@@ -172,7 +172,18 @@ def _levels(low, high):
     return inner if len(inner) > 1 else levels
 
 
-def _draw_boundary(axes, field, frame, thickness):
+def draw_boundary(axes, field, frame, thickness=1.0):
+    """Draw the boundary, each part in its style, and where the constraint binds.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    field : mapping of str to ndarray
+        ``p``; ``edges_dirichlet``, ``edges_neumann`` and ``edges_contact``; ``binding``.
+    frame : Frame
+    thickness : float, optional
+        See `paint`.
+    """
     pieces = {
         label: field["p"][:, field[f"edges_{label}"]].transpose(2, 1, 0)
         for label in ("dirichlet", "neumann", "contact")

@@ -33,7 +33,7 @@ def field_of(mesh, solution, most_triangles=20000):
     """
     values = find_element(solution.element).vertex_values(mesh, solution.u)
     shown, values = _coarsened(mesh, values, most_triangles)
-    edges = {f"edges_{label}": _edges(shown, label) for label in LABELS}
+    edges = {f"edges_{label}": edges_of(shown, label) for label in LABELS}
     return {
         "p": shown.p,
         "t": shown.t,
@@ -90,8 +90,19 @@ def _coarsened(mesh, values, most_triangles):
     return mesh, values
 
 
-def _edges(mesh, label):
-    """End points (2, k) of the facets of a label, path after path."""
+def edges_of(mesh, label):
+    """End points of the boundary facets of a label, path after path.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    label : {"dirichlet", "contact", "neumann"}
+
+    Returns
+    -------
+    ndarray of int, shape (2, k)
+        Vertices.
+    """
     paths = [path.vertices for path in boundary_paths(mesh, label)]
     facets = [[vertices[:-1], vertices[1:]] for vertices in paths]
     none = np.zeros((2, 0), int)

@@ -119,6 +119,7 @@ const step = (name) => told.steps.push({
   too_wide: document.documentElement.scrollWidth > innerWidth,
 });
 const shows = (what) => until(() => document.body.dataset.shown === what);
+told.before = window.Plotly === undefined && numbers()["n"];
 await shows("P1 64");
 step("start");
 at("CR").click();
@@ -145,6 +146,10 @@ def told(page, tmp_path_factory):
 def test_the_page_asks_the_network_for_nothing_and_nothing_goes_wrong(told):
     assert told["wrong"] == []
     assert [name for name in told["requests"] if not name.startswith(("data:", "blob:"))] == []
+
+
+def test_the_numbers_are_there_before_anything_is_drawn(told):
+    assert told["before"] == "64"
 
 
 def test_the_numbers_follow_the_element_and_the_level(told, rows):

@@ -15,7 +15,11 @@ STUDIES = (
     "The adaptive study",
 )
 SUMMED_UP = ("sweep", "sweep-table")  # by pandas; the points of a sweep are solved without
-PAGES = ("viewer", "guaranteed")  # made of templates; see `test_the_viewer_needs_no_data_frames`
+PAGES = (
+    "viewer",
+    "gallery-page",
+    "guaranteed",
+)  # made of templates; see `test_the_viewer_needs_no_data_frames`
 OTHERS = [
     name
     for title, found in CATALOGUE.items()

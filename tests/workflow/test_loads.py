@@ -31,6 +31,7 @@ def declared(tmp_path_factory):
         *files,
         "all",
         "all_scenes",
+        "results/gallery.html",
         "benchmark",
         "sensitivity",
         "stability",

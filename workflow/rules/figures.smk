@@ -168,6 +168,31 @@ rule gallery:
         " -o {output:q} 2>&1 | tee {log:q}"
 
 
+# All that is built of all scenes on one page; the viewers come to about 150 MB.
+rule gallery_page:
+    input:
+        library("gallery-page"),
+        scenes=ancient(lambda wildcards: [validated_file(name) for name in known_scenes()]),
+        fields=expand("results/{scene}/field.npz", scene=known_scenes()),
+        viewers=expand("results/{scene}/viewer.html", scene=known_scenes()),
+        built=lambda wildcards: all_scenes(),
+    output:
+        "results/gallery.html",
+    log:
+        "results/logs/gallery_page.log",
+    params:
+        content=content("gallery-page"),
+        asked=lambda wildcards: as_json(
+            [
+                scene(name).section("title", "elements", "levels", "slope")
+                for name in known_scenes()
+            ]
+        ),
+    shell:
+        "python3 -m signorini gallery-page {input.scenes:q} --results results"
+        " -o {output:q} 2>&1 | tee {log:q}"
+
+
 rule viewer:
     input:
         library("viewer"),

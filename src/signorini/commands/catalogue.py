@@ -37,6 +37,7 @@ CATALOGUE = {
         "details": "measure errors, jumps and bounds triangle by triangle",
         "draw-details": "draw the mesh, and errors, jumps and bounds on it",
         "gallery": "draw the solutions of many scenes on one sheet",
+        "gallery-page": "write a page with a card for each scene and links to its results",
         "viewer": "write a page on which the solutions can be turned",
         "vtu": "write a solution as VTU, for ParaView",
     },

@@ -30,6 +30,7 @@ CELL, BOX = 2.4, 2.0  # of a column, and of the square that a domain fits in
 MARGIN, KEY = 0.15, 0.4  # around the sheet, and of its key
 HEAD, FOOT = 0.56, 0.42  # name and title above a domain, range of u below it
 TITLE_DROP, RANGE_DROP = 0.19, 0.08  # of a title from its name, of a range from its domain
+PICTURE, PICTURE_MARGIN = 2.6, 0.06  # of a card
 BAR_WIDTH, BAR_HEIGHT, BAR_PLACE = 1.0, 0.1, 2.0  # the last one from the right margin
 
 
@@ -66,6 +67,29 @@ def draw_gallery(fields):
             _draw_scene(figure, MARGIN + column * CELL, top, *scene)
         top -= height
     _draw_key(figure)
+    return figure
+
+
+@matplotlib.rc_context(STYLE)
+def draw_picture(field):
+    """Draw one solution alone, without a word: the picture of a card.
+
+    Parameters
+    ----------
+    field : mapping
+        What `signorini.report.field.field_of` returns.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        At most `PICTURE` inches wide and high, besides a small margin.
+    """
+    frame = Frame(field["p"])
+    width, height = frame.fit(PICTURE)
+    figure = new_figure(width + 2 * PICTURE_MARGIN, height + 2 * PICTURE_MARGIN)
+    axes = add_axes(figure, PICTURE_MARGIN, PICTURE_MARGIN, width, height, frame_on=False)
+    paint(axes, field, frame, THICKNESS)
+    axes.set(xticks=[], yticks=[])
     return figure
 
 

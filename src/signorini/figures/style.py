@@ -154,6 +154,31 @@ def save_figure(figure, path, colours=None, sealed=True):
             figure.savefig(stream, format=path.suffix[1:], metadata=FORMATS[path.suffix])
 
 
+def reduced_png(figure, colours):
+    """A figure as PNG within memory, for a page that holds its pictures.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    colours : int
+        At most 256: the most frequent of its colours, which the others become.
+
+    Returns
+    -------
+    bytes
+        The same for the same figure.
+
+    Examples
+    --------
+    >>> reduced_png(new_figure(10 * MM, 5 * MM), 4)[1:4]
+    b'PNG'
+    """
+    stream = io.BytesIO()
+    with matplotlib.rc_context(STYLE):
+        _save_reduced(figure, stream, colours)
+    return stream.getvalue()
+
+
 def _save_reduced(figure, stream, colours):
     from PIL import Image
 

@@ -15,7 +15,7 @@ _TEMPLATE = "report/gallery.html.j2"
 PLACES = {
     "viewer": ("viewer.html",),
     "tables": ("*.md", "*.csv"),
-    "figures": ("*.png", "figures/*.png"),
+    "figures": ("*.png", "figures/*.png", "details/*.png"),
     "paper": ("paper.pdf",),
 }
 ALWAYS = ("viewer", "tables", "figures")  # named as not built where there is none

@@ -25,8 +25,8 @@ def declared(tmp_path_factory):
     """Command -> library files among its inputs."""
     project = Project.fresh(tmp_path_factory.mktemp("loads") / "project")
     project.ask_for("paper", "small")
-    built = ("paper/paper.pdf", "paper/vtu/P1.vtu", "paper/viewer.html", "smooth/expect.txt")
-    files = [f"results/{file}" for file in built]
+    built = ("paper/paper.pdf", "paper/vtu/P1.vtu", "paper/viewer.html", "smooth/details")
+    files = [f"results/{file}" for file in (*built, "smooth/expect.txt")]
     targets = [
         *files,
         "all",

@@ -95,3 +95,33 @@ def test_a_mistake_in_a_part_names_the_part(project, article):
     part = project.write("article/part.tex", "\n\\mistake\n")
     with pytest.raises(SignoriniError, match=r"^article/part\.tex:2: LaTeX: Undefined control"):
         run(source, own=[part])
+
+
+REACHING = {
+    "reads": r"\newread\r \openin\r=%s \ifeof\r\else\undefined\fi x",
+    "takes in": r"\def\way{%s}\input{\way}",
+}
+
+
+@pytest.mark.parametrize("way", REACHING)
+def test_a_manuscript_reaches_no_file_outside_its_folder(project, article, tmp_path, way):
+    """By a name that a macro puts together, which nobody sees before LaTeX does."""
+    outside = tmp_path / "outside.tex"
+    outside.write_text("secret\n")
+    source = article(REACHING[way] % outside)
+    if way == "reads":
+        assert run(source) == 1
+    else:
+        with pytest.raises(SignoriniError, match=r"LaTeX: "):
+            run(source)
+
+
+def test_a_manuscript_starts_no_program_and_writes_no_file(project, article, tmp_path):
+    made = [tmp_path / "by-program", tmp_path / "by-hand.txt"]
+    body = rf"\immediate\write18{{touch {made[0]}}} x"
+    assert run(article(body)) == 1
+    body = rf"\newwrite\w \immediate\openout\w={made[1]} \immediate\write\w{{x}} x"
+    source = project.write("article/mine.tex", ARTICLE % body)
+    with pytest.raises(SignoriniError, match="LaTeX: "):
+        run(source)
+    assert [path for path in made if path.exists()] == []

@@ -5,6 +5,7 @@ in equilibrium. The bound that ends the loop, and the marks, are those of one of
 """
 
 import logging
+import math
 import time
 from dataclasses import dataclass, replace
 
@@ -164,7 +165,7 @@ def _solved(statement, mesh, number, before, spent, friedrichs):
         friedrichs=friedrichs,
     )
     certify_seconds = spent["certify"] + time.perf_counter() - start
-    solve_seconds = sum(seconds.values())
+    solve_seconds = math.fsum(seconds.values())
     seconds |= spent | {"solve": solve_seconds, "certify": certify_seconds}
     seconds = {stage: seconds[stage] for stage in STAGES}
     return Step(number, mesh, solutions, certificates, seconds)

@@ -7,6 +7,7 @@ the mean of both sides, contact facets their force, Neumann facets the integral 
 of the equilibrium is rounding, and is measured.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -192,7 +193,7 @@ def _gains(topology, moments, through):
 
 def _imbalance(topology, moments, through):
     gains = _gains(topology, moments, through)
-    return float(sum((gain**2 / area).sum() for gain, area in gains)) ** 0.5
+    return math.fsum((gain**2 / area).sum() for gain, area in gains) ** 0.5
 
 
 def _balance(topology, moments, through, contact, force):
@@ -200,7 +201,7 @@ def _balance(topology, moments, through, contact, force):
 
     Where nothing holds the body, only an imbalance without mean is bounded by a constant.
     """
-    total = float(sum(gain.sum() for gain, _ in _gains(topology, moments, through)))
+    total = math.fsum(gain.sum() for gain, _ in _gains(topology, moments, through))
     most = int(np.argmax(force))
     force[most] -= total
     through[contact.facets[most]] -= contact.outward[most] * total

@@ -238,7 +238,7 @@ def _mean(mesh, values):
     family = mesh.children(values)
     mean = family.mean(axis=0)
     area = 0.25 * np.asarray(mesh.coarser().area)
-    return mean, sum(_squared_constant(area, child - mean) for child in family)
+    return mean, _total(_squared_constant(area, child - mean) for child in family)
 
 
 def _weighted_mean(mesh, values):
@@ -250,11 +250,16 @@ def _weighted_mean(mesh, values):
     slopes, weights = family[:, :2], family[:, 2:]
     mean = (weights * slopes).sum(axis=0) / weights.sum(axis=0)
     area = 0.25 * np.asarray(mesh.coarser().area)
-    rest = sum(
+    rest = _total(
         _squared_constant(area * w[0], child - mean)
         for child, w in zip(slopes, weights, strict=True)
     )
     return np.concatenate([mean, weights.mean(axis=0)]), rest
+
+
+def _total(values):
+    """Of a few floats, by NumPy: the built-in sum rounds otherwise from Python 3.12 on."""
+    return float(np.sum(list(values)))
 
 
 def _squared_constant(area, values):

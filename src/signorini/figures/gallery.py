@@ -60,7 +60,7 @@ def draw_gallery(fields):
     scenes = [(name, title, field, Frame(field["p"])) for name, title, field in fields]
     rows = [scenes[k : k + COLUMNS] for k in range(0, len(scenes), COLUMNS)]
     heights = [_height(row) for row in rows]
-    figure = new_figure(COLUMNS * CELL + 2 * MARGIN, sum(heights) + KEY + 2 * MARGIN)
+    figure = new_figure(COLUMNS * CELL + 2 * MARGIN, math.fsum(heights) + KEY + 2 * MARGIN)
     top = figure.get_figheight() - MARGIN
     for row, height in zip(rows, heights, strict=True):
         for column, scene in enumerate(row):

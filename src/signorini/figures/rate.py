@@ -29,7 +29,7 @@ def order_of(slopes):
     found = [float(slope) for slope in slopes if slope not in (None, "")]
     if not found or max(found) - min(found) > AGREED:
         return 0.0
-    return max(round(2 * sum(found) / len(found)) / 2, 0.0)
+    return max(round(2 * math.fsum(found) / len(found)) / 2, 0.0)
 
 
 def triangle_below(lowest, order):

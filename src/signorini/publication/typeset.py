@@ -26,8 +26,19 @@ _ENVIRONMENT = {
     "FORCE_SOURCE_DATE": "1",
     # TeX breaks the lines of its log elsewhere, in the middle of words.
     "max_print_line": "1000",
+    # A manuscript of someone else's reads and writes in its folder alone, and starts no program.
+    "openin_any": "p",
+    "openout_any": "p",
+    "shell_escape": "f",
 }
-_OPTIONS = ("-norc", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "-file-line-error")
+_OPTIONS = (
+    "-norc",
+    "-pdf",
+    "-interaction=nonstopmode",
+    "-halt-on-error",
+    "-file-line-error",
+    "-no-shell-escape",
+)
 _LATEXMK = ("latexmk", *_OPTIONS, "-silent")
 
 

@@ -76,7 +76,7 @@ def stacked_shares(row, names):
     >>> stacked_shares({"mesh": 1.0, "solve": 3.0}, ("mesh", "solve"))
     [('mesh', 0.0, 0.25), ('solve', 0.25, 0.75)]
     """
-    total = sum(row[name] for name in names)
+    total = math.fsum(row[name] for name in names)
     pieces, start = [], 0.0
     for name in names:
         length = row[name] / total

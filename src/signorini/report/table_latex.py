@@ -1,5 +1,6 @@
 """A table in LaTeX, no wider than the article that takes it in."""
 
+import math
 import re
 from itertools import accumulate, pairwise
 
@@ -65,7 +66,7 @@ def estimated_width(table):
         In pt.
     """
     cells = [[*column.cells, column.foot] for column in table.columns]
-    return sum(_CHARACTER * max(map(len, column)) + _GAPS for column in cells)
+    return math.fsum(_CHARACTER * max(map(len, column)) + _GAPS for column in cells)
 
 
 def _measured(table):

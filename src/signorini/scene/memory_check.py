@@ -4,6 +4,8 @@ All that is known of a level then is its domain, element and route. Meshes and r
 themselves too, but not before all that they start from has been made.
 """
 
+import math
+
 from signorini.exceptions import MeshError
 from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.memory import fits, shortage
@@ -62,7 +64,7 @@ def _count_roughly(domain, n):
     if kind == "mesh":
         return 0
     if kind == "polygon":
-        return 2 * n**2 * (_area(domain["corners"]) - sum(map(_area, domain["holes"])))
+        return 2 * n**2 * (_area(domain["corners"]) - math.fsum(map(_area, domain["holes"])))
     width, height = (1, 1) if domain["cells"] == "per-side" else domain["size"]
     return (4 if domain["diagonal"] == "criss-cross" else 2) * n**2 * width * height
 
@@ -70,7 +72,7 @@ def _count_roughly(domain, n):
 def _area(corners):
     """Of a simple polygon, in either sense of rotation; unit of length squared."""
     sides = zip(corners, corners[1:] + corners[:1], strict=True)
-    return 0.5 * abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in sides))
+    return 0.5 * abs(math.fsum(ax * by - bx * ay for (ax, ay), (bx, by) in sides))
 
 
 def _fourier_applies(statement, element, n):

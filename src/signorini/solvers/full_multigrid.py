@@ -14,6 +14,7 @@ cycles that lowered the energy by ..., d', d is about (2 d r / (1 - r))^(1/2) wi
 Brandt, Math. Comp. 31 (1977).
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -187,7 +188,7 @@ class _Descent:
 
     def discretisation_error(self, growth):
         """Estimated energy norm of u - u_h, by all decreases of this level."""
-        return float(np.sqrt(2.0 * sum(self.decreases) / (growth - 1.0)))
+        return float(np.sqrt(2.0 * math.fsum(self.decreases) / (growth - 1.0)))
 
     def result(self, algebraic, discretisation):
         """The answer, with both errors."""

@@ -1,6 +1,7 @@
 """One measured point: a scene, an element, a level and a route, from statement to solution."""
 
 import gc
+import math
 import os
 import resource
 import statistics
@@ -91,8 +92,8 @@ def _run(statement, element, n, route):
     end = time.perf_counter()
     seconds = {
         "mesh": meshed - start,
-        "assembly": discretised - meshed + sum(matrix),
-        "solve": end - discretised - sum(matrix),
+        "assembly": discretised - meshed + math.fsum(matrix),
+        "solve": end - discretised - math.fsum(matrix),
         "total": end - start,
     }
     return seconds, work, problem, solution

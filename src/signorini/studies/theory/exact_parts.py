@@ -3,6 +3,7 @@
 Quadrature is graded towards singular points, as that of the errors (`errors.graded`).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,7 +109,7 @@ def sobolev_norms(exact, mesh):
         uxx, uxy, uyy = second_derivatives(exact, x, y)
         parts = (u,), (ux, uy), (uxx, uxy, uxy, uyy)
         for k, values in enumerate(parts):
-            squares[k] += sum(_plain(piece.squared(value)) for value in values)
+            squares[k] += math.fsum(_plain(piece.squared(value)) for value in values)
     return SobolevNorms(*np.sqrt(squares).tolist(), _boundary_slope(exact, mesh))
 
 

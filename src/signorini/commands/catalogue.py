@@ -95,6 +95,10 @@ CATALOGUE = {
         "stability figures": "draw its figures",
         "stability report": "write its page",
     },
+    "A solver of yours": {
+        "suite export": "write the stability suite's problems and solutions as files",
+        "suite score": "judge answers to them",
+    },
 }
 
 

@@ -9,6 +9,7 @@ elimination keeps couplings too, so that neither stiff parts nor graded cells co
 - `contact_set`: what loads do with a contact set, and the exchange of wrong signs.
 - `refinement`: the refinement of u, to the last digit.
 - `dense`: small problems in double precision, by other means than the solvers'.
+- `entries`, `pairs`: the solution of the rounded matrix itself, as pairs of doubles.
 - `judgement`: what was found, and how solutions compare with it.
 """
 

@@ -1,0 +1,1 @@
+"""Commands for the problems of the stability suite as files."""

@@ -116,6 +116,9 @@ use rule reference as benchmark_reference with:
         f"{BENCHMARK}/logs/reference_{{scene}}.log",
     benchmark:
         f"{BENCHMARK}/benchmarks/reference_{{scene}}.tsv"
+    resources:
+        mem_mb=asked_by_reference(asked_memory, "P1", benchmark_reference_level),
+        runtime=asked_by_reference(asked_minutes, "P1", benchmark_reference_level),
     params:
         content=content("solve"),
         statement=statement,

@@ -14,6 +14,9 @@ rule solve:
     benchmark:
         "results/{scene}/benchmarks/solve/{element}_n{n}.tsv"
     priority: 9
+    resources:
+        mem_mb=asked_by_solve(asked_memory),
+        runtime=asked_by_solve(asked_minutes),
     params:
         content=content("solve"),
         statement=statement,
@@ -36,6 +39,9 @@ rule reference:
     benchmark:
         "results/{scene}/benchmarks/reference.tsv"
     priority: 10
+    resources:
+        mem_mb=asked_by_reference(asked_memory),
+        runtime=asked_by_reference(asked_minutes),
     params:
         content=content("solve"),
         statement=statement,

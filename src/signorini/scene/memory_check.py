@@ -34,7 +34,7 @@ def check_level(statement, element, n, method, domain=None):
     MeshError
         Saying what is needed, what there is, and which route would do.
     """
-    triangles = domain.count_triangles(n) if domain else _count_roughly(statement.domain, n)
+    triangles = domain.count_triangles(n) if domain else count_roughly(statement.domain, n)
     route = "multigrid" if method == "auto" else method
     bytes_by = ELEMENT_FACTS[element].bytes_by
     if fits(triangles, bytes_by(route)):
@@ -55,7 +55,7 @@ def check_level(statement, element, n, method, domain=None):
     )
 
 
-def _count_roughly(domain, n):
+def count_roughly(domain, n):
     """Triangles of level n of a section ``domain``: twice its area in cells.
 
     Netgen makes an eighth more.

@@ -1,0 +1,93 @@
+"""Fit src/signorini/scene/costs.json, what a solve costs, to docs/studies/benchmark/benchmark.csv.
+
+Every second level of each scene, element and route is fitted; the others are for
+tests/scene/test_costs.py to judge the fit by.
+
+    python benchmarks/fit_costs.py
+"""
+
+import csv
+import json
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[1]
+MEASURED = ROOT / "docs/studies/benchmark/benchmark.csv"
+COSTS = ROOT / "src/signorini/scene/costs.json"
+ROUTES = ("fourier", "multigrid", "direct")
+MESHED = ("l-shape",)  # all other measured scenes are grids
+POWERS = np.arange(0.5, 1.41, 0.05)
+
+
+def measured_rows():
+    """Rows that were measured, by a route that a scene can ask for."""
+    rows = csv.DictReader(MEASURED.read_text(encoding="utf-8").splitlines())
+    return [row for row in rows if row["status"] == "measured" and row["method"] in ROUTES]
+
+
+def split(rows):
+    """The rows to fit, and those to judge by: every second level of each curve."""
+    curves = [list(curve) for _, curve in groupby(rows, _curve)]
+    fitted = [row for curve in curves for row in curve[::2]]
+    held_out = [row for curve in curves for row in curve[1::2]]
+    return fitted, held_out
+
+
+def kind_of(row):
+    """How the triangles of a row's scene lie."""
+    return "mesh" if row["scene"] in MESHED else "grid"
+
+
+def seconds_of(row):
+    """Of a solve without its mesh, which is another job."""
+    return float(row["total"]) - float(row["mesh"])
+
+
+def peak_of(row):
+    """Bytes of the process at its peak."""
+    return float(row["peak"])
+
+
+def main():
+    """Fit and write."""
+    fitted, _ = split(measured_rows())
+    keys = sorted({_key(row) for row in fitted})
+    costs = {"/".join(key): _costs(fitted, key) for key in keys}
+    COSTS.write_text(json.dumps(costs, indent=1) + "\n", encoding="utf-8")
+
+
+def _costs(rows, key):
+    own = [row for row in rows if _key(row) == key]
+    alike = [row for row in rows if _key(row)[:2] == key[:2]]  # problems differ more than meshes
+    return {"seconds": _fit(alike, seconds_of), "bytes": _fit(own, peak_of)}
+
+
+def _fit(rows, measured):
+    """Start, factor, power of ``start + factor dofs^power``: the least relative errors."""
+    dofs = np.array([float(row["dofs"]) for row in rows])
+    values = np.array([measured(row) for row in rows])
+    fits = [_fit_power(dofs, values, power) for power in POWERS]
+    _, start, factor, power = min(fit for fit in fits if min(fit[1:3]) > 0)
+    return [float(f"{number:.4g}") for number in (start, factor, power)]
+
+
+def _fit_power(dofs, values, power):
+    columns = np.stack([np.ones_like(dofs), dofs**power], axis=1)
+    relative = columns / values[:, None]
+    (start, factor), *_ = np.linalg.lstsq(relative, np.ones_like(values))
+    misses = np.log(np.maximum(relative @ (start, factor), 1e-9))
+    return (misses**2).sum(), start, factor, power
+
+
+def _curve(row):
+    return row["scene"], row["element"], row["method"]
+
+
+def _key(row):
+    return row["element"], row["method"], kind_of(row)
+
+
+if __name__ == "__main__":
+    main()

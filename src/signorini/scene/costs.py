@@ -1,0 +1,109 @@
+"""What a solve costs, in seconds and bytes, said before it starts: a cluster asks for it.
+
+The numbers in ``costs.json`` are fitted by ``benchmarks/fit_costs.py`` to the kept benchmark, one
+thread of the machine that `docs/studies/benchmark/benchmark.md` names.
+"""
+
+import json
+import math
+from functools import cache
+from pathlib import Path
+
+from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.scene.memory_check import count_roughly
+
+# Unknowns for each triangle of a fine level: vertices, sides.
+_DOFS = {"P1": 0.5, "CR": 1.5}
+# A route that was not measured costs at most what this one does.
+_MEASURED_AS = {"auto": "multigrid", "petsc": "direct"}
+_MARGIN = 2  # of what is asked for over what is expected
+_LEAST_MB, _LEAST_MINUTES = 500, 10
+_UNCOUNTED_MB = 1000  # a mesh file, whose triangles nobody has counted
+
+
+def solve_cost(element, route, triangles, grid):
+    """What a solve takes.
+
+    Parameters
+    ----------
+    element : {"P1", "CR"}
+    route : {"auto", "fourier", "multigrid", "direct", "petsc"}
+    triangles : int or float
+    grid : bool
+        Whether the triangles are those of a rectangle.
+
+    Returns
+    -------
+    seconds : float
+        Without the start of a process and the mesh.
+    bytes : float
+        At the peak, with Python and its libraries.
+
+    Examples
+    --------
+    >>> seconds, size = solve_cost("P1", "direct", 2 * 256**2, grid=True)
+    >>> 0.2 < seconds < 0.8, 1e8 < size < 4e8
+    (True, True)
+    """
+    measured = _MEASURED_AS.get(route, route)
+    kind = "grid" if grid or measured == "fourier" else "mesh"
+    costs = _costs()[f"{element}/{measured}/{kind}"]
+    dofs = _DOFS[element] * triangles
+    known = "multigrid" if route == "auto" else route
+    least = ELEMENT_FACTS[element].bytes_by(known) * triangles
+    return _at(costs["seconds"], dofs), max(_at(costs["bytes"], dofs), least)
+
+
+def asked_memory(statement, element, n, route, attempt=1):
+    """Megabytes to ask a cluster for, for one solve; twice as many at each further attempt.
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    element : {"P1", "CR"}
+    n : int
+        The level, n = 1/h.
+    route : str
+        See `solve_cost`.
+    attempt : int
+        From 1.
+
+    Returns
+    -------
+    int
+    """
+    _, size = _cost_of(statement, element, n, route)
+    least = _UNCOUNTED_MB if statement.domain.get("kind") == "mesh" else _LEAST_MB
+    megabytes = max(least, 100 * math.ceil(_MARGIN * size / 1e8))
+    return megabytes * 2 ** (attempt - 1)
+
+
+def asked_minutes(statement, element, n, route, attempt=1):
+    """Minutes to ask a cluster for; see `asked_memory`.
+
+    Parameters
+    ----------
+    statement, element, n, route, attempt
+        As there.
+
+    Returns
+    -------
+    int
+    """
+    seconds, _ = _cost_of(statement, element, n, route)
+    return (_LEAST_MINUTES + math.ceil(_MARGIN * seconds / 60)) * 2 ** (attempt - 1)
+
+
+def _cost_of(statement, element, n, route):
+    grid = statement.domain.get("kind", "rectangle") == "rectangle"
+    return solve_cost(element, route, count_roughly(statement.domain, n), grid)
+
+
+def _at(fit, dofs):
+    start, factor, power = fit
+    return start + factor * dofs**power
+
+
+@cache
+def _costs():
+    return json.loads(Path(__file__).with_name("costs.json").read_text(encoding="utf-8"))

@@ -49,7 +49,7 @@ CATALOGUE = {
     },
     "A paper": {
         "compare": "compare errors and slopes with published numbers",
-        "verify": "fail if a published number is not met",
+        "verify": "fail if a published number is not met, or results are not as recorded",
         "surface": "sample a solution for a surface plot",
         "draw-surface": "draw a surface plot",
         "draw-convergence": "draw errors against mesh width",
@@ -112,10 +112,13 @@ class Outcome:
         For a person: one line, or a table.
     data : object, optional
         The same for a program, lists, dicts, text and numbers; printed by ``--json``.
+    failed : bool
+        Whether what was looked for is not so; the exit code is then 1.
     """
 
     text: str
     data: object = None
+    failed: bool = False
 
 
 def commands():

@@ -115,7 +115,7 @@ def _parser(command, module):
 
 
 def _run(module, arguments):
-    """Run a command: 0, or 1 after an error."""
+    """Run a command: 0, or 1 after an error, or where what was looked for is not so."""
     from signorini.commands.progress import told_steps
 
     start = time.perf_counter()
@@ -134,7 +134,7 @@ def _run(module, arguments):
     if outcome is None:  # another process tells it
         return 0
     _print(_told(outcome, arguments.json, time.perf_counter() - start))
-    return 0
+    return int(outcome.failed)
 
 
 def _told(outcome, as_json, seconds):

@@ -168,6 +168,12 @@ def test_loads_of_another_size_are_left_out_of_the_ordinary():
     assert (row["solved_1e-09"], row["ordinary_1e-09"]) == (0.5, 1.0)
 
 
+def test_an_answer_called_inaccurate_is_no_wrong_claim():
+    found = [rows(residual=1e-3, status=status) for status in ("solved", "inaccurate")]
+    (row,) = summaries.solvers(frame(found), 1.0)
+    assert (row["wrong"], row["warned"], row["solved_1e-06"]) == (1, 1, 0.0)
+
+
 def test_a_status_better_than_the_error_is_wrong():
     found = [
         rows("ours/direct", error=2e-10),

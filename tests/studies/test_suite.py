@@ -15,7 +15,7 @@ from signorini.judge.pairs import residual
 from signorini.storage import read_csv, read_npz, write_npz
 from signorini.studies.stability.exchange import KIND, export, keys, name_of, read_problem
 from signorini.studies.stability.load_problem import load_problem, save_answer
-from signorini.studies.stability.score import ranking, score
+from signorini.studies.stability.score import profiles, ranking, score
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE, PAGE = ROOT / "examples/add_your_solver.py", ROOT / "docs/add-your-solver.md"
@@ -120,6 +120,19 @@ def test_a_wrong_answer_is_wrong_and_ranks_below_a_right_one(suite, tmp_path):
     assert counts["wrong"]["accurate"] == 0.0
     assert counts["silent"]["solved_1e-09"] == counts["silent"]["wrong"] == 0
     assert counts["silent"]["unclaimed"] > 0
+
+
+def test_a_profile_ends_at_the_share_that_the_ranking_tells(suite, tmp_path):
+    for name, change, seconds in (("right", 0.0, 2.0), ("wrong", 1.0, 1.0)):
+        for p in problems(suite):
+            u = p["u"].copy()
+            u[p["free"][0]] += change * p["variation"]
+            save_answer(tmp_path / name, p, u, True, seconds)
+    rows = [row for name in ("right", "wrong") for row in score(suite, tmp_path / name)]
+    found = profiles(rows)
+    for row in ranking(rows, time_limit=1.0):
+        assert found[row["solver"]][1][-1] == row["solved_1e-09"]
+    assert found["right"][1][0] > found["wrong"][1][-1] == 0.0
 
 
 def test_no_answer_is_no_claim(suite, tmp_path):

@@ -7,8 +7,10 @@ example:
 from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
+from signorini.figures.profiles import draw_profiles
+from signorini.figures.style import save_figure
 from signorini.storage import write_csv
-from signorini.studies.stability.score import ranking, score
+from signorini.studies.stability.score import profiles, ranking, score
 
 
 def add_arguments(parser):
@@ -28,6 +30,9 @@ def add_arguments(parser):
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="where to write a row for each problem, .csv"
     )
+    parser.add_argument(
+        "--profile", metavar="FILE", help="where to draw performance profiles, .pdf or .png"
+    )
 
 
 def run(arguments):
@@ -35,6 +40,8 @@ def run(arguments):
     rows = [row for folder in arguments.answers for row in score(arguments.suite, folder)]
     if arguments.output:
         write_csv(arguments.output, rows)
+    if arguments.profile:
+        save_figure(draw_profiles(profiles(rows)), arguments.profile)
     ranked = ranking(rows, arguments.time_limit)
     return Outcome("\n".join(_line(row) for row in ranked), ranked)
 

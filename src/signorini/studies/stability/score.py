@@ -10,6 +10,7 @@ from signorini.exceptions import StorageError
 from signorini.generated.problems import instance
 from signorini.judge.judgement import largest, ratio
 from signorini.solvers import kkt_residual
+from signorini.studies.profiles import profile, ratios
 from signorini.studies.stability import summaries
 from signorini.studies.stability.exchange import PROBLEMS, name_of, read_problem
 from signorini.studies.stability.verdicts import ERROR
@@ -147,3 +148,22 @@ def ranking(rows, time_limit):
     found = summaries.solvers(table, time_limit)
     ranked = [row | {"accurate": float(accurate[row["solver"]])} for row in found]
     return sorted(ranked, key=lambda row: (-row["solved_1e-09"], row["wrong"], row["seconds"]))
+
+
+def profiles(rows):
+    """Performance profiles of the time to a solved problem, see `studies.profiles`.
+
+    Parameters
+    ----------
+    rows : list of dict
+        Of `score`, of solvers with answers to the same suite.
+
+    Returns
+    -------
+    dict
+        Solver -> (tau, rho).
+    """
+    table = pd.DataFrame(rows).sort_values("name", kind="stable")
+    table["time"] = table["seconds"].where(summaries.solved_to(table), np.inf)
+    times = {name: own["time"].tolist() for name, own in table.groupby("solver", sort=False)}
+    return {name: profile(found) for name, found in ratios(times).items()}

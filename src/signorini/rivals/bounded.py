@@ -93,7 +93,7 @@ def petsc_vi(qp):
 
 
 def petsc_tao(qp):
-    """PETSc's bounded Newton method with a line search (TAO bnls)."""
+    """PETSc's bounded Newton method with a line search (TAO bnls), by Cholesky's method."""
     from petsc4py import PETSc
 
     K, x, load, low, high = _petsc(PETSc, qp)
@@ -111,6 +111,8 @@ def petsc_tao(qp):
     tao.setVariableBounds((low, high))
     tao.setTolerances(gatol=qp.tolerance * load.norm(), grtol=0.0)
     tao.setMaximumIterations(1000)
+    tao.getKSP().setType("preonly")
+    tao.getKSP().getPC().setType("cholesky")
     tao.solve(x)
     return x.getArray().copy(), tao.getConvergedReason() > 0, tao.getIterationNumber()
 

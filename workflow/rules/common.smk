@@ -151,7 +151,9 @@ STUDIES = "results/quick" if QUICK else "results/studies"
 def tell_provenance(state):
     """Say in results/provenance.json what a run that did something made, and how it ended; no run fails for it."""
     words = ["--state", state, f"--asked={' '.join(sys.argv[1:])}"]
-    cores = workflow.resource_settings.cores  # None on a cluster, where `workflow.cores` raises an error
+    cores = (
+        workflow.resource_settings.cores
+    )  # None on a cluster, where `workflow.cores` raises an error
     words += ["--cores", str(cores)] if cores else []
     failed = sorted({job.name for job in workflow.scheduler.failed})
     words += ["--failed", *failed] if failed else []

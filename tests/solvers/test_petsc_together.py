@@ -4,13 +4,19 @@ import os
 import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from builders import DATA, statement
 from signorini import discretize, load_scene
 from signorini.exceptions import SolverError
+from signorini.fem.elements import find_element
+from signorini.mesh.refined import Refined
+from signorini.mesh.triangulation import Triangulation
 from signorini.solvers import kkt_residual, petsc, solve
+from signorini.solvers.petsc.piece import make_piece
 from signorini.solvers.petsc.processes import check_alone
 from signorini.solvers.stored import read_solution
 
@@ -85,6 +91,18 @@ def test_the_proof_by_reductions_is_the_proof(element):
         wrong = u.copy()
         wrong[dofs[: dofs.size // 2]] += change
         assert reduced(wrong) == pytest.approx(kkt_residual(problem, wrong)[0], rel=1e-9)
+
+
+def test_a_body_in_several_parts_is_refused():
+    """Before any process waits for another: no MPI is needed to see it."""
+    apart = Triangulation(
+        [[0, 1, 0, 3, 4, 3], [0, 0, 1, 0, 0, 1]],
+        [[0, 3], [1, 4], [2, 5]],
+        {"contact": [[0, 3], [1, 4]], "dirichlet": [[1, 2, 4, 5], [2, 0, 5, 3]]},
+    )
+    comm, domain = SimpleNamespace(size=2, rank=0), Refined(apart, 1, 1.0)
+    with pytest.raises(SolverError, match="several parts; solve it on one process"):
+        make_piece(domain, find_element("P1"), 1, statement(**DATA), comm)
 
 
 def test_processes_without_petsc_are_told_of_it(monkeypatch):

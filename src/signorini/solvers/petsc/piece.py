@@ -14,6 +14,7 @@ from signorini.fem.discrete_problem import Problem
 from signorini.fem.problem import discretize_on
 from signorini.mesh.patch import cut_out, dealt_out, facets_along
 from signorini.mesh.strip import strip_of
+from signorini.solvers.check import check_data
 
 _TRIANGLES = 64  # of the coarse mesh for each process at least, so that shares are about equal
 
@@ -59,11 +60,15 @@ def make_piece(domain, element, n, statement, comm):
     Raises
     ------
     SolverError
-        If there are more processes than rows of cells, or than triangles.
+        If there are more processes than rows of cells, or than triangles; if data are not finite,
+        or the body is in several parts.
     """
     if getattr(domain, "uniform", False):
-        return _strip(domain.grid(n), element, statement, comm)
-    return _patch(domain, element, n, statement, comm)
+        piece = _strip(domain.grid(n), element, statement, comm)
+    else:
+        piece = _patch(domain, element, n, statement, comm)
+    check_data(piece.problem)
+    return piece
 
 
 def _strip(grid, element, statement, comm):
@@ -85,6 +90,10 @@ def _patch(domain, element, n, statement, comm):
     coarse, levels = _coarse_level(domain, n, comm.size)
     mesh = domain.level(coarse)
     _check_enough(mesh.number_of_triangles, "triangles", comm)
+    if not mesh.in_one_part:  # whether each is held would have to be seen across processes
+        raise SolverError(
+            f"mpiexec -n {comm.size}: the body is in several parts; solve it on one process"
+        )
     cut = cut_out(mesh, dealt_out(mesh, comm.size), comm.rank, levels)
     shared = {other: _shared_dofs(cut, element, other) for other in cut.corners}
     problem = discretize_on(cut.mesh, element, statement)

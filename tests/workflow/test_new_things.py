@@ -58,7 +58,7 @@ def test_an_element(project):
     project.edit(here, "\nELEMENTS =", "from signorini.fem.elements.new import NEW\n\nELEMENTS =")
     project.edit(here, "(P1, CR)}", "(P1, CR, NEW)}")
     facts = f"{LIBRARY}/fem/element_facts.py"
-    new = 'NEW_FACTS = ElementFacts("NEW", "new", "N", 1100, 130, 1e6)\n\nELEMENT_FACTS ='
+    new = 'NEW_FACTS = ElementFacts("NEW", "new", "N", 1100, 130, 500, 1e6)\n\nELEMENT_FACTS ='
     project.edit(facts, "ELEMENT_FACTS =", new)
     project.edit(facts, "(P1_FACTS, CR_FACTS)}", "(P1_FACTS, CR_FACTS, NEW_FACTS)}")
     project.edit(SCHEMA, "enum: [P1, CR]", "enum: [P1, CR, NEW]")

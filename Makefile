@@ -4,6 +4,8 @@ PYTHON ?= python3
 CORES ?= 2
 
 run := .venv/bin/python -m
+# An unpacked artifact installs from its own wheels, without a network.
+offline := $(if $(wildcard wheels),--no-index --find-links wheels)
 
 .PHONY: help paper test lint docs petsc readme examples studies requirements clean distclean
 .NOTPARALLEL:
@@ -17,6 +19,7 @@ help:
 	@echo 'make readme        build all scenes, then bring what README.md and config/README.md show up to date'
 	@echo 'make examples      run the examples, draw their pictures and write docs/examples.md'
 	@echo 'make studies       run the six studies, up to an hour, and keep what they measured in docs/studies'
+	@echo 'make artifact      pack sources, wheels and results of the paper in build/artifact, to build it offline'
 	@echo 'make requirements  write requirements.txt anew, with the newest versions (Python 3.11)'
 	@echo 'make clean         delete results/'
 	@echo 'make distclean     delete all that is not in the repository: results/, .venv/ and caches'
@@ -53,6 +56,9 @@ studies: .venv/ready
 	$(run) snakemake --cores $(CORES) sensitivity theory adaptive guaranteed benchmark stability
 	.venv/bin/python docs/keep_studies.py
 
+artifact: paper
+	.venv/bin/python .ci/make_artifact.py
+
 requirements:
 	"$(PYTHON)" .ci/pin_requirements.py
 
@@ -62,7 +68,7 @@ requirements:
 	@"$(PYTHON)" -c 'import venv, ensurepip' 2>/dev/null || { echo 'error: $(PYTHON) has no venv; on Debian: apt-get install python3-venv' >&2; exit 1; }
 	@echo 'Installing requirements.txt into .venv, once; this takes about a minute.'
 	@"$(PYTHON)" -m venv --clear .venv
-	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 --requirement requirements.txt
+	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 $(offline) --requirement requirements.txt
 	@touch .venv/ready
 
 .venv/docs: .venv/ready requirements-docs.txt

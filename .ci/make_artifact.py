@@ -108,7 +108,7 @@ def pack(path, entries, time):
 
 def main():
     """Pack, and write the checksum beside the archive."""
-    if git("status", "--porcelain"):
+    if git("status", "--porcelain", "--untracked-files=no"):
         sys.exit("error: the checkout differs from its commit; commit or stash, and run it again")
     with open(ROOT / "pyproject.toml", "rb") as stream:
         stem = f"signorini-{tomllib.load(stream)['project']['version']}"

@@ -20,7 +20,7 @@ RULES = {
 # measures tells its own time.
 COMPUTING = re.compile(
     r"^from signorini\.(mesh\.domain|fem\.(?!element_facts)\w+|solvers"
-    r"|errors\.measure|report\.field|certificate\.level"
+    r"|errors\.measure|report\.(?:field|details)|certificate\.level"
     r"|open_choices\.\w+|studies\.sensitivity\.(?:errors|digits)|studies\.theory\.estimates)"
     r" import (?!count_solves|read_level|[A-Z]+\b)",
     re.M,

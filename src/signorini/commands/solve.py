@@ -6,7 +6,7 @@ relative errors of u and of the contact forces, and by which route it was solved
 With PETSc (make petsc), processes on one machine or on several share a solve: each has its part of
 the mesh, of the matrix and of u. The first one gathers u where a file is asked for.
 
-examples:
+example:
   signorini solve config/scenes/paper.yaml --element CR --n 64 -o u.npz
   mpiexec -n 2 signorini solve config/scenes/paper.yaml --element CR --n 64 --method petsc -o u.npz
 """

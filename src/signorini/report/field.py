@@ -63,8 +63,10 @@ def sums_on_coarser(mesh, values, most_triangles):
 
     Examples
     --------
-    >>> import signorini
-    >>> sums_on_coarser(signorini.rectangle(4), np.ones(32), most_triangles=8).tolist()
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> sums_on_coarser(grid, np.ones(32), most_triangles=8).tolist()
     [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]
     """
     while mesh.number_of_triangles > most_triangles:

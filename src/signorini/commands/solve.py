@@ -4,11 +4,12 @@ The outcome tells the status, the residual of the Karush-Kuhn-Tucker conditions,
 relative errors of u and of the contact forces, and by which route it was solved and why.
 
 With PETSc (make petsc), processes on one machine or on several share a solve: each has its part of
-the mesh, of the matrix and of u. The first one gathers u where a file is asked for.
+the mesh, of the matrix and of u. The first one gathers u where a file is asked for:
+
+    mpiexec -n 2 signorini solve config/scenes/paper.yaml --element CR --n 64 --method petsc
 
 example:
   signorini solve config/scenes/paper.yaml --element CR --n 64 -o u.npz
-  mpiexec -n 2 signorini solve config/scenes/paper.yaml --element CR --n 64 --method petsc -o u.npz
 """
 
 import logging

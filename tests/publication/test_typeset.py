@@ -125,3 +125,10 @@ def test_a_manuscript_starts_no_program_and_writes_no_file(project, article, tmp
     with pytest.raises(SignoriniError, match="LaTeX: "):
         run(source)
     assert [path for path in made if path.exists()] == []
+
+
+def test_a_manuscript_that_never_ends_is_stopped(project, article, monkeypatch):
+    monkeypatch.setattr("signorini.publication.typeset.SECONDS", 1)
+    with pytest.raises(SignoriniError, match=r"^article/mine\.tex: LaTeX: "):
+        run(article(r"\def\again{\again}\again"))
+    assert not (project.folder / "mine.pdf").exists()

@@ -39,6 +39,8 @@ _OPTIONS = (
     "-file-line-error",
     "-no-shell-escape",
 )
+# Of processor time, for each run of LaTeX; one of an article takes seconds.
+SECONDS = 300
 _LATEXMK = ("latexmk", *_OPTIONS, "-silent")
 
 
@@ -121,7 +123,19 @@ def _latexmk(folder, name):
         env=os.environ | _ENVIRONMENT,
         capture_output=True,
         check=False,
+        preexec_fn=_limit_time,
     )
+
+
+def _limit_time():
+    """Let no program that is started next, nor those that it starts, loop for ever."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return
+    _, most = resource.getrlimit(resource.RLIMIT_CPU)
+    limit = SECONDS if most == resource.RLIM_INFINITY else min(SECONDS, most)
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, most))
 
 
 def _log_of(pdf):

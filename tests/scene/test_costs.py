@@ -3,6 +3,7 @@
 import json
 import sys
 from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -72,3 +73,38 @@ def test_another_attempt_asks_for_twice_as_much():
     assert asked[1:] == [2 * asked[0], 4 * asked[0]]
     minutes = [asked_minutes(SQUARE, "CR", 1024, "direct", attempt) for attempt in (1, 2)]
     assert minutes[1] == 2 * minutes[0]
+
+
+@pytest.mark.parametrize("grid", [True, False])
+def test_an_element_that_was_not_measured_costs_as_much_as_the_dearest(monkeypatch, grid):
+    """A new element is free in its facts, so that the model alone speaks."""
+    facts = replace(ELEMENT_FACTS["P1"], name="NEW", direct_bytes=0, multigrid_bytes=0)
+    monkeypatch.setitem(ELEMENT_FACTS, "NEW", facts)
+    for triangles in (2, 2 * 64**2, 2 * 1024**2):
+        new = solve_cost("NEW", "direct", triangles, grid)
+        for element in ("P1", "CR"):
+            for route in ("multigrid", "direct"):
+                seconds, _ = solve_cost(element, route, triangles, grid)
+                assert new[0] >= seconds
+    monkeypatch.setitem(ELEMENT_FACTS, "NEW", replace(facts, direct_bytes=10**9))
+    assert solve_cost("NEW", "direct", 1024, grid)[1] == 1024 * 10**9
+
+
+class Bare:
+    """Facts of an element that knows no memory of any route."""
+
+    @staticmethod
+    def bytes_by(route):
+        return 0
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_a_route_that_was_not_measured_costs_as_much_as_the_dearest_of_its_element(
+    monkeypatch, element
+):
+    monkeypatch.setitem(ELEMENT_FACTS, element, Bare)
+    for triangles in (2, 2 * 64**2, 2 * 1024**2):
+        routes = [solve_cost(element, route, triangles, True) for route in ROUTES]
+        seconds, size = solve_cost(element, "again", triangles, True)
+        assert seconds >= max(found for found, _ in routes)
+        assert size >= max(found for _, found in routes)

@@ -28,6 +28,7 @@ from signorini.studies.stability.parts import (
     digits_by_cell,
     error_pairs,
     frame,
+    profiles_of,
     shares,
     title,
     titles,
@@ -106,6 +107,7 @@ def rows(solver="ours", **values):
         "family": "needles",
         "load": "white",
         "element": "CR",
+        "seed": 0,
         "solver": solver,
         "claimed": 1,
         "residual": 1e-16,
@@ -414,6 +416,9 @@ def test_figures_show_shares_and_digits():
     assert digits_by_cell(found)["CR", "needles", "white"] == pytest.approx((9, 1))
     assert shares(found, "load")["osqp", "white"] == 0
     assert shares(found, "family")["osqp", "needles"] == 0.5
+    drawn = profiles_of(found)  # of the two problems both solvers were given one, which osqp missed
+    assert list(drawn) == ["signorini", "OSQP"]
+    assert [list(map(list, steps)) for steps in drawn.values()] == [[[1.0], [1.0]], [[1.0], [0.0]]]
     assert list(titles(found)) == ["ours", "ours/direct", "osqp"]
     assert [title(name) for name in ("ours", "ours/direct", "osqp")] == [
         "signorini",

@@ -15,7 +15,7 @@ from signorini.generated.bodies import FAMILIES
 from signorini.publication.typeset import typeset
 from signorini.storage import write_json
 
-FIGURES = ("ours", "rivals", "estimates", "floor", "stretched")
+FIGURES = ("ours", "rivals", "profiles", "estimates", "floor", "stretched")
 
 
 QUICK = ("stability", "--config", "quick=true")

@@ -18,7 +18,7 @@ def stability_seeds():
 # The first seed of every kind of problem. Random seeds, those of a day, do not touch what is documented.
 SEEDS = stability_seeds()
 STABILITY = f"{STUDIES}/stability" + (f"-{SEEDS}" if SEEDS else "")
-STABILITY_FIGURES = ["ours", "rivals", "estimates", "floor", "stretched"]
+STABILITY_FIGURES = ["ours", "rivals", "profiles", "estimates", "floor", "stretched"]
 STABILITY_TABLES = ["claims", "solvers", "statuses", "estimates", "digits", "crossings"]
 
 STABILITY_SETTINGS = "config/stability.yaml"

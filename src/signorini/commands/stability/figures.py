@@ -8,11 +8,13 @@ from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.figures import stability as figures
+from signorini.figures.profiles import draw_profiles
 from signorini.figures.style import save_figure
 from signorini.studies.stability.parts import (
     digits_by_cell,
     error_pairs,
     errors_of,
+    profiles_of,
     read_parts,
     records,
     shares,
@@ -36,6 +38,7 @@ def run(arguments):
     drawings = {
         "ours": figures.draw_digits(digits_by_cell(success)),
         "rivals": figures.draw_rivals(by_load, by_family, titles(success)),
+        "profiles": draw_profiles(profiles_of(success)),
         "estimates": figures.draw_estimates(error_pairs(success), (UNDERESTIMATE, OVERESTIMATE)),
         "floor": figures.draw_floor(errors, conditions),
         "stretched": figures.draw_stretched(records(floor["stretching"])),

@@ -9,6 +9,7 @@ from signorini.generated.bodies import FAMILIES
 from signorini.report.curves import EPS
 from signorini.rivals import RIVALS
 from signorini.storage import read_csv
+from signorini.studies.profiles import profile, ratios
 from signorini.studies.stability.summaries import in_order, solved_to
 from signorini.studies.stability.verdicts import answered
 
@@ -120,6 +121,31 @@ def shares(rows, column):
     """
     solved = rows.assign(solved=solved_to(rows))
     return solved.groupby(["solver", column], sort=False)["solved"].mean().to_dict()
+
+
+_PROBLEM = ["family", "load", "element", "seed"]
+
+
+def profiles_of(rows):
+    """Performance profiles of the time to a solved problem, see `studies.profiles`.
+
+    They are over the problems that all solvers were given; of our routes the automatic one alone.
+
+    Parameters
+    ----------
+    rows : pandas.DataFrame
+        Of `success.measure`.
+
+    Returns
+    -------
+    dict
+        Title of a solver -> (tau, rho).
+    """
+    shown = rows[~rows["solver"].str.startswith("ours/")]
+    times = shown.assign(time=shown["seconds"].where(solved_to(shown), np.inf))
+    table = times.set_index([*_PROBLEM, "solver"])["time"].unstack("solver").dropna()
+    found = ratios({name: table[name] for name in in_order(table.columns)})
+    return {title(name): profile(of_solver) for name, of_solver in found.items()}
 
 
 def titles(rows):

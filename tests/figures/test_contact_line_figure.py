@@ -111,6 +111,45 @@ def test_both_are_drawn_against_the_exact_solution_where_there_is_one():
         np.testing.assert_allclose(line.get_ydata(), shift, rtol=1e-12)
 
 
+def test_both_are_drawn_against_the_reference_where_nothing_is_exact():
+    rows = [row | {"reference": row["u"] - 0.5} for row in sloping_rows()]
+    rows[3]["reference"] = None
+    middle, lines = difference_lines(rows)
+    assert middle.get_title(loc="left") == r"$u_h - u_\mathrm{ref}$"
+    assert len(lines) == 2
+    assert np.isnan(lines[0].get_ydata()).sum() == 1
+    for line in lines:
+        known = line.get_ydata()[~np.isnan(line.get_ydata())]
+        np.testing.assert_allclose(known, 0.5, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("forces", "told"),
+    [
+        ((0.040625, 0.0405), "resultant: P1 $0.040625$, CR $0.040625$, reference $0.040500$"),
+        ((4e-8, 0.0), "resultant  [$10^{-9}$]: P1 $40.000$, CR $40.000$, reference $0.000$"),
+        ((-12.5, 12.0), "resultant: P1 $-12.500$, CR $-12.500$, reference $12.000$"),
+        ((0.0, None), "resultant: P1 $0$, CR $0$"),
+    ],
+)
+def test_the_whole_contact_forces_are_told_above_their_densities(forces, told):
+    whole = dict(zip(("resultant", "true_resultant"), forces, strict=True))
+    figure = draw_contact_line([row | whole for row in sloping_rows()])
+    assert figure.axes[-1].get_title(loc="right") == told
+
+
+def test_markers_of_one_element_do_not_hide_those_of_the_other():
+    upper = draw_contact_line(sloping_rows(n=64)).axes[0]
+    shown = {line.get_label(): line for line in upper.lines}
+    places = [
+        set(np.arange(64)[slice(line.get_markevery()[0], None, line.get_markevery()[1])])
+        for name, line in shown.items()
+        if "n = 64" in name
+    ]
+    assert len(places) == 2
+    assert not set.intersection(*places)
+
+
 def test_one_element_alone_has_nothing_to_be_compared_with():
     rows = [row for row in sloping_rows() if row["element"] == "CR"]
     assert len(draw_contact_line(rows).axes) == 2

@@ -61,6 +61,7 @@ rule contact_line:
         scene=ancient(exact_scene_file),
         mesh=mesh_file,
         solutions=finest_of_each,
+        reference=line_reference,
     output:
         "results/{scene}/contact_line.csv",
     log:
@@ -71,9 +72,10 @@ rule contact_line:
         content=content("contact-line"),
         truth=exact_statement,
         exact=exact_option,
+        reference=reference_option,
     shell:
         "python3 -m signorini contact-line {input.mesh:q} {input.solutions:q} {params.exact}"
-        " -o {output:q} 2>&1 | tee {log:q}"
+        " {params.reference} -o {output:q} 2>&1 | tee {log:q}"
 
 
 # All figures of a scene at once: importing Matplotlib takes longer than drawing them.

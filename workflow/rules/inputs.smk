@@ -225,6 +225,12 @@ def exact_scene_file(wildcards):
     return [scene_file(wildcards)] if exact else []
 
 
+def line_reference(wildcards):
+    """The reference of the contact line, where errors need it anyway."""
+    measured = {"errors", "rates"}.intersection(scene(wildcards.scene).document["outputs"])
+    return reference_file(wildcards) if measured else []
+
+
 def exact_option(wildcards, input):
     """Option of the contact line for an exact truth, where there is one."""
     exact = scene(wildcards.scene).truth["kind"] == "exact"

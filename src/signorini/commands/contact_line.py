@@ -1,6 +1,6 @@
 """Tabulate what happens along the contact part: a row for each contact unknown, in order.
 
-With --scene its exact solution is tabulated, too, where it has one.
+With --scene its exact solution is tabulated, too, where it has one; with --reference a finer one.
 
 example:
   signorini contact-line mesh.npz p1.npz cr.npz -o contact_line.csv
@@ -13,6 +13,7 @@ from signorini.commands.inputs import add_mesh, add_output, scene_of
 from signorini.exceptions import SceneError
 from signorini.fem.contact_line import contact_rows
 from signorini.mesh.domain import read_domain
+from signorini.report.contact_truth import with_exact, with_reference
 from signorini.solvers.stored import mesh_of, read_solution
 from signorini.storage import write_csv
 
@@ -22,6 +23,7 @@ def add_arguments(parser):
     add_mesh(parser)
     parser.add_argument("solutions", metavar="SOLUTION", nargs="+", help="solutions, .npz")
     parser.add_argument("--scene", metavar="SCENE", type=Path, help="tells the exact solution")
+    parser.add_argument("--reference", metavar="FILE", help="a solution of a finer level, .npz")
     add_output(parser, "the table, .csv")
 
 
@@ -34,27 +36,25 @@ def run(arguments):
         If nothing is in contact.
     """
     domain = read_domain(arguments.mesh)
-    rows = []
-    for path in arguments.solutions:
-        solution = read_solution(path)
-        rows += contact_rows(mesh_of(domain, solution), solution)
+    solutions = [read_solution(path) for path in arguments.solutions]
+    rows = [row for one in solutions for row in contact_rows(mesh_of(domain, one), one)]
     if not rows:
         raise SceneError(
             "boundary: no degree of freedom is in contact; drop the contact line from outputs"
         )
-    if arguments.scene:
-        rows = _with_exact(rows, scene_of(arguments.scene))
+    mesh = mesh_of(domain, solutions[-1])
+    rows = _with_truth(rows, domain, mesh, arguments)
     write_csv(arguments.output, rows)
     critical = sum(row["critical"] is not None for row in rows)
     return Outcome(f"contact line: {len(rows)} rows, {critical} critical points")
 
 
-def _with_exact(rows, scene):
-    """The rows with a column more, where the truth is exact."""
-    exact = scene.problem_statement.exact
-    if exact is None:
-        return rows
-    import numpy as np
-
-    values = exact.value(*(np.array([row[name] for row in rows]) for name in "xy"))
-    return [row | {"exact": float(value)} for row, value in zip(rows, values, strict=True)]
+def _with_truth(rows, domain, mesh, arguments):
+    """The rows with columns more, where there is an exact solution or a reference."""
+    exact = scene_of(arguments.scene).problem_statement.exact if arguments.scene else None
+    if exact is not None:
+        return with_exact(rows, mesh, exact)
+    if arguments.reference:
+        reference = read_solution(arguments.reference)
+        return with_reference(rows, mesh_of(domain, reference), reference)
+    return rows

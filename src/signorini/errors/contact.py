@@ -1,4 +1,4 @@
-"""Errors on the contact side: of the trace, of the multiplier, and of the critical points."""
+"""On the contact side: errors of trace, multiplier and critical points, and the exact force."""
 
 import math
 
@@ -60,20 +60,60 @@ def contact_errors(mesh, element, solution, exact):
     }
 
 
+def contact_resultant(mesh, exact):
+    """Integral of k du/dnu of an exact solution over the contact part.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+        Its facets are integrated over, graded towards the singular points of the solution.
+    exact : ExactSolution
+
+    Returns
+    -------
+    float
+        Unit of k u.
+
+    Examples
+    --------
+    >>> from signorini.exact.families import family
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> contact_resultant(mesh, family("patch"))
+    1.0
+    """
+    trace = find_boundary_trace(mesh, "contact")
+    rule, times = _rule(trace.length.size)
+    sums = []
+    for which, points, shares, weights in graded(trace.ends, exact.singular_points, rule, times):
+        x, y = (_affine(ends, which, points) for ends in trace.ends)
+        flux = np.broadcast_to(exact.flux(x, y, *trace.normal[:, which, None]), x.shape)
+        sums.append(np.sum((trace.length[which] * shares)[:, None] * weights * flux))
+    return math.fsum(sums)
+
+
+def _affine(ends, which, points):
+    """The function on segments that is affine between its values at their ends, at points."""
+    return sum(ends[i, which, None] * points[i] for i in range(2))
+
+
+def _rule(count):
+    """The rule on a segment, and how often each of so many is cut beforehand."""
+    s, weights = interval_rule(_DEGREE)
+    return (np.stack([1.0 - s, s]), weights), times_to_cut(count, _FEWEST_CELLS, corners=2)
+
+
 def _distance(function, segments, values, singular_points, normal=None):
     """L2 distance of a function from one that is affine on each segment.
 
     `segments` are (2, 2, m): axis, end, segment; `values` (2, m) are those at the ends.
     """
-    s, weights = interval_rule(_DEGREE)
     length = np.hypot(*(segments[:, 1] - segments[:, 0]))
-    times = times_to_cut(length.size, _FEWEST_CELLS, corners=2)
-    rule = np.stack([1.0 - s, s]), weights
+    rule, times = _rule(length.size)
     squares = []
     for which, points, shares, weights in graded(segments, singular_points, rule, times):
-        x, y, u_h = (
-            sum(ends[i, which, None] * points[i] for i in range(2)) for ends in (*segments, values)
-        )
+        x, y, u_h = (_affine(ends, which, points) for ends in (*segments, values))
         u = function(x, y) if normal is None else function(x, y, *normal[:, which, None])
         squares.append(square(u - u_h, length[which] * shares, weights))
     return root(squares)

@@ -102,7 +102,8 @@ def contact_rows(mesh, solution):
         unit of length; ``u`` and ``obstacle``; ``flux``, see `contact_flux`; ``threshold``, what
         flux is held against, where that is not 0; ``binding``, 1 or 0; ``critical``, the arc length
         of the critical point between this row and the next of its component (in a closed one the
-        first follows the last), or None. Empty without contact part.
+        first follows the last), or None; ``resultant``, the whole contact force, unit of k u, the
+        same in each row. Empty without contact part.
     """
     element = find_element(solution.element)
     line = _ordered(mesh, element, solution.contact, solution.active)
@@ -122,6 +123,7 @@ def contact_rows(mesh, solution):
         **threshold,
         "binding": solution.active[line.which].astype(int),
         "critical": np.where(np.isnan(line.critical), None, line.critical),
+        "resultant": np.full(line.s.size, solution.force.sum()),
     }
     width = {} if isclose(solution.n * solution.h, 1.0) else {"h": solution.h}
     level = {"element": solution.element, "n": solution.n} | width

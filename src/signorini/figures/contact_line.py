@@ -1,5 +1,7 @@
 """The contact part unrolled: u over the obstacle, what lines hide, and the contact force."""
 
+import math
+
 import matplotlib
 import numpy as np
 
@@ -20,12 +22,13 @@ from signorini.report.contact_side import (
     critical_runs,
     differences,
     finest_lines,
+    resultants,
 )
 
 MOST_MARKERS = 24  # on a line
 UNITS = {  # what is counted in one unit -> the columns that share it
     "s": ("s", "critical"),
-    "u": ("u", "obstacle", "exact"),
+    "u": ("u", "obstacle", "exact", "reference"),
     "flux": ("flux", "threshold"),
 }
 RIGHT = 0.985  # of the panels, which are stacked
@@ -42,8 +45,8 @@ def draw_contact_line(rows):
     """Draw u with the obstacle, and the contact force, along the contact part.
 
     Each element is shown at its finest level. Between the two is the difference from the exact
-    solution, where the rows have it, or of CR from P1, where both are there: in the upper panel one
-    line is under the other.
+    solution or from the reference, where the rows have one, or of CR from P1, where both are there:
+    in the upper panel one line is under the other. Above the contact force are the whole forces.
 
     Parameters
     ----------
@@ -76,13 +79,14 @@ def draw_contact_line(rows):
     _draw_critical_points(panels, lines)
     _draw_ends(panels.values(), next(iter(lines.values())))
     _name_axes(panels, units, name)
+    _name_resultants(panels["force"], resultants(lines))
     _set_limits(panels, lines)
     _place(figure, panels, places)
     figure.legend(
         loc="lower center",
         ncols=4,
         handlelength=2.6,
-        columnspacing=1.6,
+        columnspacing=1.3,
         borderaxespad=0.1,
     )
     return figure
@@ -112,6 +116,19 @@ def _name_axes(panels, units, name):
         axes.tick_params(labelbottom=panel == "force")
     along = with_unit("arc length $s$ along the contact part", units["s"])
     panels["force"].set_xlabel(along)
+
+
+def _name_resultants(axes, forces):
+    """The whole forces at the upper right, the largest with five digits."""
+    if not forces:
+        return
+    exponent = unit_exponent(list(forces.values()))
+    values = {name: force / 10.0**exponent for name, force in forces.items()}
+    largest = max(abs(value) for value in values.values())
+    decimals = 4 - math.floor(math.log10(largest)) if largest else 0
+    told = [f"{name} ${value:z.{max(decimals, 0)}f}$" for name, value in values.items()]
+    title = with_unit("resultant", exponent)
+    axes.set_title(f"{title}: {', '.join(told)}", loc="right", fontsize=8)
 
 
 def _set_limits(panels, lines):
@@ -147,9 +164,10 @@ def _draw_lines(upper, lower, lines):
     lower.axhline(0, color=FAINT, linewidth=0.5, zorder=1)
     for order, (element, line) in enumerate(lines.items()):
         label = f"{ELEMENT_FACTS[element].label}, {_level(line)}"
+        every = -(-len(line["s"]) // MOST_MARKERS)
         style = ELEMENT_STYLES[element] | {
             "markersize": 3.2,
-            "markevery": -(-len(line["s"]) // MOST_MARKERS),
+            "markevery": (order * every // 2, every),  # none hides that of another element
             "zorder": 4 - 0.1 * order,
         }
         upper.plot(*_by_component(line, "u"), label=label, **style)

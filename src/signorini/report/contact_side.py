@@ -2,10 +2,16 @@
 
 import numpy as np
 
-NUMBERS = ("component", "s", "u", "obstacle", "flux", "critical", "threshold", "exact")
+_TRUTHS = {"exact": "u_h - u", "reference": r"u_h - u_\mathrm{ref}"}  # column -> difference from it
+_RESULTANTS = ("resultant", "true_resultant")
+NUMBERS = (
+    *("component", "s", "u", "obstacle", "flux", "critical", "threshold"),
+    *_TRUTHS,
+    *_RESULTANTS,
+)
 """Columns of contact_line.csv that are numbers and drawn; not every table has all of them."""
 _CR_FROM_P1 = r"u_\mathrm{CR} - u_\mathrm{P1}"
-_ABSENT = {"threshold": 0.0, "exact": None}
+_ABSENT = {"threshold": 0.0} | dict.fromkeys([*_TRUTHS, *_RESULTANTS])
 BY_TURNS = 4  # neighbouring critical points from which on they are an interval
 
 
@@ -56,7 +62,9 @@ def _column(rows, name):
 
 
 def differences(lines):
-    """What one line hides under another: u against the exact solution, or else CR against P1.
+    """What one line hides under another: u against the truth, or else CR against P1.
+
+    The truth is the exact solution or, where there is none, the reference.
 
     Parameters
     ----------
@@ -78,12 +86,13 @@ def differences(lines):
     >>> rows.append(row | {"element": "CR", "s": 0.5, "u": 0.75, "exact": None})
     >>> differences(finest_lines(rows[:2], ["P1"]))
     ('u_h - u', {'P1': array([0., 1.])})
-    >>> plain = [{**row, "exact": None} for row in rows]
+    >>> plain = [row | dict.fromkeys(["exact", "reference"]) for row in rows]
     >>> differences(finest_lines(plain, ["P1", "CR"]))[1]
     {'CR': array([0.25])}
     """
-    if all(np.isfinite(line["exact"]).all() for line in lines.values()):
-        return "u_h - u", {name: line["u"] - line["exact"] for name, line in lines.items()}
+    for truth, told in _TRUTHS.items():
+        if all(np.isfinite(line[truth]).any() for line in lines.values()):
+            return told, {name: line["u"] - line[truth] for name, line in lines.items()}
     if not {"P1", "CR"} <= set(lines) or lines["P1"]["n"] != lines["CR"]["n"]:
         return None, {}
     p1, cr = lines["P1"], lines["CR"]
@@ -93,6 +102,33 @@ def differences(lines):
         known = np.interp(cr["s"][here], p1["s"][there], p1["u"][there], np.nan, np.nan)
         found[here] = cr["u"][here] - known
     return _CR_FROM_P1, {"CR": found}
+
+
+def resultants(lines):
+    """The whole contact force of each element and, where it is known, the true one.
+
+    Parameters
+    ----------
+    lines : mapping
+        What `finest_lines` returns.
+
+    Returns
+    -------
+    dict of str to float
+        Element, or ``exact`` or ``reference`` -> force, unit of k u; empty for tables without.
+
+    Examples
+    --------
+    >>> row = dict.fromkeys(NUMBERS, 0.0) | {"element": "P1", "n": 4, "resultant": 0.5}
+    >>> lines = finest_lines([row | {"exact": None, "true_resultant": 0.25}], ["P1"])
+    >>> resultants(lines)
+    {'P1': 0.5, 'reference': 0.25}
+    """
+    found = {element: float(line["resultant"][0]) for element, line in lines.items()}
+    first = next(iter(lines.values()))
+    truth = "exact" if np.isfinite(first["exact"]).any() else "reference"
+    found[truth] = float(first["true_resultant"][0])
+    return {name: force for name, force in found.items() if np.isfinite(force)}
 
 
 def critical_runs(line):

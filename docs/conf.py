@@ -1,7 +1,8 @@
 """The documentation site, by Sphinx: `make docs` builds it in build/site, without the network.
 
-The pages are CHANGELOG.md, CONTRIBUTING.md and the Markdown files of config and docs. They stay
-where they are, so that their links lead to the same places on a code host and in the site.
+The pages are ARTIFACT.md, CHANGELOG.md, CONTRIBUTING.md and the Markdown files of config and docs.
+They stay where they are, so that their links lead to the same places on a code host and in the
+site.
 """
 
 import sys
@@ -21,6 +22,7 @@ root_doc = "docs/index"
 include_patterns = [
     "docs/**.md",
     "config/**.md",
+    "ARTIFACT.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
 ]

@@ -1,4 +1,5 @@
-"""Bring what is generated of README.md, config/README.md and docs up to date, or check that it is.
+"""Bring what is generated of README.md, ARTIFACT.md, config/README.md and docs up to date, or check
+that it is.
 
     python docs/update_readme.py [--check]
 
@@ -24,6 +25,7 @@ from signorini.exact import FAMILIES  # noqa: E402
 from signorini.scene.strict_yaml import load_yaml  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
+ARTIFACT = ROOT / "ARTIFACT.md"
 PAPER = ROOT / "docs/paper.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
 FIGURES = (*(RESULTS / f"figure_5_{k}.png" for k in (1, 2, 3)), ROOT / "results/gallery.png")
@@ -174,6 +176,7 @@ def main():
         measured = {"durations": durations_block(block(README, "durations"), check)}
         wanted = {
             README: filled(README, promises() | measured),
+            ARTIFACT: filled(ARTIFACT, measured),
             PAPER: filled(PAPER, results()),
             CONFIG_README: filled(CONFIG_README, keys()),
         }

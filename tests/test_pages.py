@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 WITH_CODE = ("README.md", "docs/python.md", "docs/certificate.md")
-WITH_LINKS = (*WITH_CODE, "docs/examples.md", "CHANGELOG.md")
+WITH_LINKS = (*WITH_CODE, "docs/examples.md", "CHANGELOG.md", "ARTIFACT.md")
 
 
 @pytest.mark.parametrize("page", WITH_CODE)

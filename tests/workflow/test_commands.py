@@ -13,12 +13,12 @@ import pytest
 from project import ROOT, side_by_side
 
 PAGES = [
-    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "config/README.md")),
+    *(ROOT / name for name in ("README.md", "ARTIFACT.md", "CONTRIBUTING.md", "config/README.md")),
     *sorted((ROOT / "docs").rglob("*.md")),
 ]
 SHELL = ("", "sh", "bash", "console")
 BLOCK = re.compile(r"^```(\w*|\{[\w-]+\})\n(.*?)^```$", re.M | re.S)
-INLINE = re.compile(r"`((?:snakemake|make|python|pip install|cd) [^`]+)`")
+INLINE = re.compile(r"`((?:snakemake|make|python|pip install|cd|signorini verify) [^`]+)`")
 NAMES = re.compile(r"^(?:#.*|\s*|\[[\w,]+\]|(?P<name>[\w.-]+)(?:\[[\w,]+\])?(?:[=<>~!].*)?)$")
 
 
@@ -58,6 +58,9 @@ TRIED = {
         "rm -f config/scenes/footing.yaml paper/footing.tex;"
         " PYTHONPATH=src python3 -m signorini new footing --paper;"
         f" PYTHONPATH=src python3 -m {command}"
+    ),
+    r"\.venv/bin/signorini .*": lambda command: (  # whose folder is empty in this copy
+        f"PYTHONPATH=src python3 -m {command.removeprefix('.venv/bin/')}"
     ),
     r"signorini .*": lambda command: f"PYTHONPATH=src python3 -m {command}",
     r"snakemake --unlock": str,

@@ -88,8 +88,8 @@ def test_components_of_a_contact_line_are_apart_and_keep_their_ends():
     assert kept_points(component, nothing, most=3).tolist() == [0, 4, 6, 7, 8, 11]
 
 
-def test_the_page_is_fast_because_it_is_small(data, page):
-    """Plotly draws within two seconds what has no more than this (docs/look.md)."""
+def test_data_and_triangles_of_a_page_are_few(data, page):
+    """Below 1 MB without Plotly, below 100 kB for each solution, 4,096 triangles at most."""
     of_data = len(json.dumps(data)) / len(data["solutions"])
     assert len(page.encode()) - len(plotly_script().encode()) < 1e6
     assert of_data < 100e3

@@ -170,7 +170,7 @@ rule gallery:
         " -o {output:q} 2>&1 | tee {log:q}"
 
 
-# All that is built of all scenes on one page; the viewers come to about 150 MB.
+# All that is built of all scenes on one page; each of the viewers is about 5 MB.
 rule gallery_page:
     input:
         library("gallery-page"),

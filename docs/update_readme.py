@@ -22,10 +22,13 @@ import scene_pages  # noqa: E402
 from keys import key_list  # noqa: E402
 
 from signorini.exact import FAMILIES  # noqa: E402
+from signorini.provenance.codecheck import codecheck_text  # noqa: E402
 from signorini.scene.strict_yaml import load_yaml  # noqa: E402
+from signorini.scene.validated import read_validated  # noqa: E402
+from signorini.storage import read_csv  # noqa: E402
 
 README, CONFIG_README = ROOT / "README.md", ROOT / "config/README.md"
-ARTIFACT = ROOT / "ARTIFACT.md"
+ARTIFACT, CODECHECK = ROOT / "ARTIFACT.md", ROOT / "codecheck.yml"
 PAPER = ROOT / "docs/paper.md"
 PICTURES, RESULTS = ROOT / "docs/pictures", ROOT / "results/paper"
 FIGURES = (*(RESULTS / f"figure_5_{k}.png" for k in (1, 2, 3)), ROOT / "results/gallery.png")
@@ -55,6 +58,14 @@ def results():
     """Blocks of docs/paper.md, from the results of the scene `paper`."""
     table = (RESULTS / "table_5_1.md").read_text(encoding="utf-8")
     return {"table 5.1": table, "check": f"> {verdict()}", "choices": choices()}
+
+
+def codecheck_file():
+    """The file from which a codechecker starts, as bytes."""
+    document = read_validated(RESULTS / "scene.json").document
+    citation = load_yaml(ROOT / "CITATION.cff")
+    folder = RESULTS.relative_to(ROOT).as_posix()
+    return codecheck_text(document, read_csv(RESULTS / "check.csv"), citation, folder).encode()
 
 
 def durations(measured):
@@ -177,6 +188,7 @@ def main():
         wanted = {
             README: filled(README, promises() | measured),
             ARTIFACT: filled(ARTIFACT, measured),
+            CODECHECK: codecheck_file(),
             PAPER: filled(PAPER, results()),
             CONFIG_README: filled(CONFIG_README, keys()),
         }

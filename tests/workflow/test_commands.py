@@ -120,6 +120,7 @@ FILES = [
     "docs",
     "examples",
     "README.md",
+    "CITATION.cff",
 ]
 
 

@@ -60,6 +60,7 @@ CATALOGUE = {
     },
     "An artifact": {
         "provenance": "say what results were built from, by what and where",
+        "codecheck": "write the file from which a codechecker starts",
     },
     "The benchmark": {
         "benchmark machine": "describe the machine, the versions and the load",

@@ -140,7 +140,7 @@ def draw_ratios(rows):
         _fill_ratios(axes, table, colours)
         axes.set_title(f"load: {load}", fontsize=8, pad=13)
         _name_levels(axes, levels)
-    told = "blue where NCF has the smaller, brown where CF has"
+    told = "below 1, blue, NCF has the smaller, above 1, brown, CF"
     _draw_scale(figure, colours, f"$L^2$ error of NCF relative to CF: {told}")
     return figure
 

@@ -26,6 +26,7 @@ SMALL = STYLE | {
     "ytick.labelsize": 7,
     "legend.fontsize": 6.5,
 }
+LARGE = {"P1": 5.5}  # a ring around the marker of another element at the same place
 MARKERS = {element: style["marker"] for element, style in ELEMENT_STYLES.items()}
 COLOURS = {element: style["color"] for element, style in ELEMENT_STYLES.items()}
 NAMES = {element: facts.label for element, facts in ELEMENT_FACTS.items()}
@@ -36,6 +37,11 @@ SOLVED = 1e-10  # stated accuracy, at most, of a solution that is called solved
 _DASHED = (0, (4, 2))
 _DOTTED = {"linewidth": 0.6, "linestyle": (0, (1, 1.5))}
 _THIN = {"linewidth": 0.6, "zorder": 0}
+_STATUSES = {  # whether called solved -> how a solution is drawn: told apart in grey by its shape
+    True: {"s": 3, "color": BLACK, "linewidths": 0, "label": "solved"},
+    False: {"s": 6, "color": ACCENT, "marker": "x", "linewidths": 0.5, "label": "inaccurate"},
+}
+TITLES_OF_PAIRS = {"u": "$u$"}
 
 
 @matplotlib.rc_context(SMALL)
@@ -88,7 +94,8 @@ def draw_rivals(by_load, by_family, titles):
     """
     figure = new_figure(TEXT_WIDTH, (0.12 + 0.032 * len(titles)) * TEXT_WIDTH)
     for k, cells in enumerate((by_load, by_family)):
-        axes = figure.add_axes((0.245 + 0.375 * k, 0.2, 0.365, 0.76))
+        axes = figure.add_axes((0.245 + 0.375 * k, 0.2, 0.365, 0.75))
+        axes.set_title(("percent solved, by load", "by family of meshes")[k], fontsize=8, pad=3)
         columns = list(dict.fromkeys(column for _, column in cells))
         values = [[cells.get((name, column), math.nan) for column in columns] for name in titles]
         texts = [[_percent_text(share) for share in row] for row in values]
@@ -101,10 +108,10 @@ def _percent_text(share):
     return "" if math.isnan(share) else f"{math.floor(100 * share)}"
 
 
-def _two_panels(figure):
-    """Two logarithmic axes side by side."""
+def _two_panels(figure, below=0.0):
+    """Two logarithmic axes side by side, a share of the height left free below."""
     for k in (0, 1):
-        place = (0.085 + 0.5 * k, 0.14, 0.405, 0.76)
+        place = (0.085 + 0.5 * k, 0.14 + below, 0.395, 0.76 - below)
         yield figure.add_axes(place, xscale="log", yscale="log")
 
 
@@ -126,15 +133,30 @@ def draw_estimates(pairs, span):
     figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
     for (title, points), axes in zip(pairs.items(), _two_panels(figure), strict=False):
         _draw_span(axes, (1e-18, 1.0), span)
-        for solved, colour, label in ((True, BLACK, "solved"), (False, ACCENT, "inaccurate")):
+        for solved, style in _STATUSES.items():
             own = [(error, accuracy) for error, accuracy, status in points if status == solved]
-            axes.scatter(*thinned(own), 3, colour, linewidths=0, label=label)
-        axes.axhline(SOLVED, color=FAINT, **_THIN)
-        axes.set(xlabel="true error", title=title)
+            axes.scatter(*thinned(own), **style)
+        _draw_solved(axes)
+        axes.set(xlabel="true error", title=TITLES_OF_PAIRS.get(title, title))
         axes.title.set_fontsize(8)
     figure.axes[0].set_ylabel("accuracy as stated")
-    axes.legend(loc="upper left")
+    axes.legend(loc="upper left", markerscale=1.8)
     return figure
+
+
+def _draw_solved(axes):
+    """The stated accuracy below which a solution is called solved."""
+    axes.axhline(SOLVED, color=FAINT, **_THIN)
+    axes.annotate(
+        "solved below",
+        (1.0, SOLVED),
+        (-2, 2),
+        xycoords=axes.get_yaxis_transform(),
+        textcoords="offset points",
+        fontsize=6.5,
+        color=GREY,
+        ha="right",
+    )
 
 
 def _draw_span(axes, ends, span):
@@ -160,10 +182,10 @@ def draw_floor(errors, lines):
     -------
     matplotlib.figure.Figure
     """
-    figure = new_figure(TEXT_WIDTH, 0.46 * TEXT_WIDTH)
+    figure = new_figure(TEXT_WIDTH, 0.54 * TEXT_WIDTH)
     levels = sorted({row["n"] for row in errors})
     labelled = levels[::-2]
-    for (norm, title), axes in zip(TITLES.items(), _two_panels(figure), strict=True):
+    for (norm, title), axes in zip(TITLES.items(), _two_panels(figure, 0.17), strict=True):
         for element in COLOURS:
             own = [row for row in errors if row["element"] == element]
             _draw_families(axes, own, element, norm)
@@ -172,14 +194,27 @@ def draw_floor(errors, lines):
         axes.minorticks_off()
         axes.set(xlabel="mesh width $h$", title=title)
         axes.title.set_fontsize(8)
-    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.64), handlelength=3)
+    _name_what_is_drawn(figure)
     return figure
+
+
+def _name_what_is_drawn(figure):
+    """A legend at the foot, with an entry for each label that some panel has."""
+    drawn = {}
+    for axes in figure.axes:
+        handles, labels = axes.get_legend_handles_labels()
+        drawn |= dict(zip(labels, handles, strict=True)) | drawn
+    figure.legend(drawn.values(), drawn, loc="lower center", ncols=2, handlelength=3)
 
 
 def _draw_families(axes, rows, element, norm):
     style = {"color": COLOURS[element], "marker": MARKERS[element], "markersize": 3}
+    if element in LARGE:
+        style |= {"markersize": LARGE[element], "markerfacecolor": "none", "zorder": 3}
     for family, (name, line) in FAMILIES.items():
         shown = [row for row in rows if row["family"] == family and row[norm] > 0]
+        if not shown:
+            continue
         widths, errors = [1 / row["n"] for row in shown], [row[norm] for row in shown]
         label = f"{NAMES[element]}, {name}"
         axes.plot(widths, errors, linestyle=line, label=label, **style)
@@ -188,7 +223,7 @@ def _draw_families(axes, rows, element, norm):
 def _draw_condition(axes, rows, element, line):
     widths = [1 / row["n"] for row in rows if row["family"] == "patch"]
     bound = round_off_of_widths(widths, *line)
-    label = f"eps times condition, {element}"
+    label = f"{NAMES[element]}, eps times condition"
     axes.plot(widths, bound, color=COLOURS[element], label=label, **_DOTTED)
 
 
@@ -208,25 +243,21 @@ def draw_stretched(rows):
     -------
     matplotlib.figure.Figure
     """
-    figure = new_figure(0.62 * TEXT_WIDTH, 0.42 * TEXT_WIDTH)
-    axes = figure.add_axes((0.13, 0.15, 0.84, 0.81), xscale="log", yscale="log")
+    figure = new_figure(0.95 * TEXT_WIDTH, 0.42 * TEXT_WIDTH)
+    axes = figure.add_axes((0.1, 0.15, 0.55, 0.81), xscale="log", yscale="log")
     for element in dict.fromkeys(row["element"] for row in rows):
         own = [row for row in rows if row["element"] == element]
         _draw_patch_test(axes, [row for row in own if row["error"]], element)
         bound = round_off_of_aspects(own)
-        axes.plot(*bound, color=COLOURS[element], label="eps times condition", **_DOTTED)
-    axes.axhline(SOLVED, color=FAINT, **_THIN)
-    axes.annotate(
-        "solved below",
-        (1.0, SOLVED),
-        (-2, 2),
-        textcoords="offset points",
-        fontsize=6.5,
-        color=GREY,
-        ha="right",
-    )
+        axes.plot(
+            *bound,
+            color=COLOURS[element],
+            label=f"{NAMES[element]}, eps times condition",
+            **_DOTTED,
+        )
+    _draw_solved(axes)
     axes.set(xlabel="height over width of the cells", ylabel="relative error")
-    axes.legend(loc="upper right", handlelength=3)
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3)
     return figure
 
 
@@ -244,5 +275,5 @@ def _draw_patch_test(axes, rows, element):
         color=colour,
         linewidth=0.7,
         linestyle=_DASHED,
-        label="accuracy as stated",
+        label=f"{NAMES[element]}, stated accuracy",
     )

@@ -9,6 +9,7 @@ from project import ROOT, Project
 
 from signorini.scene.read import check_points, load_scene
 from signorini.scene.sweep import sweep_points
+from signorini.sweeps.forecast import by_rule, scene_jobs, sweep_jobs
 
 SCENE = """\
 domain: {kind: rectangle}
@@ -23,13 +24,22 @@ BUNDLES = {"sweep_points": 2, "sweep_table": 1, "sweep_figure": 1}
 ASKED = ("--config", "sweep_jobs=2")
 
 
+def forecast_of(project):
+    """The jobs that a forecast counts, by their rules."""
+    asked = load_scene(project / "config/scenes/small.yaml")
+    rows = by_rule(scene_jobs(asked) + sweep_jobs(asked, 2))
+    return {row["rule"]: row["jobs"] for row in rows}
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """A scene with a sweep, built in two bundles; do not change it."""
     project = Project.fresh(tmp_path_factory.mktemp("sweep") / "project", scene=SCENE)
     run = project.build(*ASKED)
     assert "sweep of small: 8 points, bundled into jobs: 2" in run.text
+    assert re.search(r"into jobs: 2, about \d+\.\d s of processor time", run.text)
     assert {rule: run.jobs.get(rule) for rule in BUNDLES} == BUNDLES
+    assert forecast_of(project) == {rule: run.jobs[rule] for rule in ("mesh", "solve", *BUNDLES)}
     assert "warning: config/scenes/small.yaml: point f=1,diagonal=rising (data.f = 1, " in run.text
     return project
 

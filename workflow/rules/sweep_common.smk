@@ -64,10 +64,19 @@ def sweep_output(name):
     return [f"results/{name}/{file}" for file in files]
 
 
+@reported
+def sweep_seconds(name):
+    """Of processor time, that the jobs of a scene's sweep take; only a sweep loads what tells it."""
+    from signorini.sweeps.forecast import sweep_jobs
+
+    return sum(job.seconds for job in sweep_jobs(scene(name), bundle_count(name)))
+
+
 def tell_sweeps(names):
     """Say how much work the sweeps are, before any starts."""
     for name in names:
         if "sweep" in scene(name).document:
             count = len(sweep_points(sweep_of(name)))
             told = f"sweep of {name}: {count} points, bundled into jobs: {bundle_count(name)}"
-            print(told, file=sys.stderr)
+            seconds = f"about {sweep_seconds(name):.1f} s of processor time where all is to solve"
+            print(f"{told}, {seconds}", file=sys.stderr)

@@ -14,6 +14,7 @@ CATALOGUE = {
         "scenes": "list the scenes of a folder",
         "new": "write a commented scene to start from",
         "check": "validate a scene: all that can be checked before any work",
+        "forecast": "tell what a scene takes: solves, jobs, seconds, memory, disk",
     },
     "Its answer": {
         "mesh": "make the coarsest mesh of a scene",

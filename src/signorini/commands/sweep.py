@@ -22,6 +22,7 @@ from signorini.exceptions import SignoriniError
 from signorini.scene.sweep import sweep_points
 from signorini.storage import read_csv
 from signorini.sweeps.bundles import bundles
+from signorini.sweeps.forecast import points_job
 from signorini.sweeps.records import is_known, solve_points
 
 _SHOWN = 20
@@ -58,13 +59,14 @@ def run(arguments):
     if arguments.dry_run:
         more = [f"... and {len(new) - _SHOWN} more"] if len(new) > _SHOWN else []
         return Outcome("\n".join([told, *new[:_SHOWN], *more]), {"points": len(points), "new": new})
-    print(told, file=sys.stderr)
-    return _written(scene, points, folder, library)
-
-
-def _written(scene, points, folder, library):
-    """The outcome of a sweep, once its points are solved and its table and figure written."""
     (ordered,) = bundles(scene.document["sweep"], most=1)
+    job = points_job(scene, [point for point in ordered if point.name in {*new}])
+    print(f"{told}, about {job.seconds:.1f} s of processor time", file=sys.stderr)
+    return _written(scene, points, ordered, folder, library)
+
+
+def _written(scene, points, ordered, folder, library):
+    """The outcome of a sweep, once its points are solved and its table and figure written."""
     records = solve_points(scene, ordered, folder / "sweep", library, _tell)
     by_name = {record["point"]: record for record in records}
     records = [by_name[point.name] for point in points]

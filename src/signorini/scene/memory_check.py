@@ -40,7 +40,7 @@ def check_level(statement, element, n, method, domain=None):
     if fits(triangles, bytes_by(route)):
         return
     applicable = [
-        other for other in _ROUTES if other != "fourier" or _fourier_applies(statement, element, n)
+        other for other in _ROUTES if other != "fourier" or fourier_applies(statement, element, n)
     ]
     fitting = [other for other in applicable if fits(triangles, bytes_by(other))]
     if method == "auto":
@@ -75,10 +75,21 @@ def _area(corners):
     return 0.5 * abs(math.fsum(ax * by - bx * ay for (ax, ay), (bx, by) in sides))
 
 
-def _fourier_applies(statement, element, n):
+def fourier_applies(statement, element, n):
     """Whether the fourier route solves this level.
 
     It is asked of a problem without data, on a grid, which costs nothing.
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    element : {"P1", "CR"}
+    n : int
+        The level, n = 1/h.
+
+    Returns
+    -------
+    bool
     """
     is_rectangle = statement.domain.get("kind", "rectangle") == "rectangle"
     if not is_rectangle or not statement.triangulations.uniform:

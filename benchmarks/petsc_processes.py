@@ -23,6 +23,9 @@ FORMAT = "{:<8} {:<7} {:>5} {:>8}  {:<10} {:>9} {:>8.2f} {:>8.2f} {:>6}  {}"
 
 def main(words):
     """Measure each case by PETSc on some processes, and by the route that `auto` would take."""
+    if "--help" in words:
+        print(__doc__)
+        return None
     if words[:1] == ["--here"]:
         return measure(*words[1:])
     print(HEADINGS)

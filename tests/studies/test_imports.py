@@ -14,11 +14,13 @@ STUDIES = (
     "The theory study",
     "The adaptive study",
 )
-SUMMED_UP = ("sweep", "sweep-table")  # by pandas; the points of a sweep are solved without
+# By pandas; the points of a sweep are solved without.
+SUMMED_UP = ("sweep", "sweep-table", "suite score")
 PAGES = (
     "viewer",
     "gallery-page",
     "guaranteed",
+    "suite export",
 )  # made of templates; see `test_the_viewer_needs_no_data_frames`
 OTHERS = [
     name

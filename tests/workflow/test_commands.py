@@ -68,6 +68,7 @@ TRIED = {
     r"snakemake --report report.html results.*": lambda command: (  # what the line before builds
         command.replace("--report report.html", "--dry-run")
     ),
+    r"snakemake --rulegraph .*": lambda command: command.partition(" | dot")[0],
     r"snakemake (.*)": lambda command: f"{command} --dry-run",
     r"python examples/(.*)": lambda command: f"test -f {command.split()[1]}",  # run elsewhere
     r"python (benchmarks|docs)/(.*)": lambda command: f"{command.partition('.py')[0]}.py --help",

@@ -10,6 +10,7 @@ example:
   signorini forecast config/scenes/punch-widths.yaml --sample 5
 """
 
+import math
 import os
 import time
 from argparse import Namespace
@@ -85,11 +86,11 @@ def _forecast(scene, cores, most):
         "rules": by_rule(jobs),
         "jobs": len(jobs),
         "solves": sum(job.solves for job in jobs),
-        "seconds": sum(job.seconds for job in jobs),
+        "seconds": math.fsum(job.seconds for job in jobs),
         "cores": cores,
         "elapsed": elapsed(jobs, cores),
         "memory": peak_memory(jobs, cores),
-        "disk": sum(job.disk for job in jobs),
+        "disk": math.fsum(job.disk for job in jobs),
         "counted": scene.document["domain"]["kind"] != "mesh",
     }
 
@@ -153,7 +154,8 @@ def _sampled_levels(scene, levels, folder):
     for element, n in asked:
         _solve(scene, file, folder, element, n)
     measured = time.process_time() - start
-    return len(asked), sum(level_cost(scene, *pair)[0] for pair in asked), measured
+    foreseen = math.fsum(level_cost(scene, *pair)[0] for pair in asked)
+    return len(asked), foreseen, measured
 
 
 def _solve(scene, file, folder, element, n):

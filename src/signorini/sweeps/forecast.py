@@ -6,6 +6,7 @@ measured on two cores that did other work too, 26 November 2026.
 
 import heapq
 import json
+import math
 from collections import Counter
 from dataclasses import dataclass
 
@@ -135,7 +136,7 @@ def points_job(scene, points, shapes=None):
         asked = len(shape.scene.elements) * len(shape.scene.levels)
         seconds += asked * _MEASURE_SECONDS.get(shape.scene.truth["kind"], 0)
         rows += asked
-    seconds += sum(cost for cost, _ in solved)
+    seconds += math.fsum(cost for cost, _ in solved)
     memory = _POINTS_MEMORY + max((size for _, size in solved), default=0)
     disk = len(points) * _POINT_BYTES + rows * _ROW_BYTES
     return Job("sweep_points", len(solved), seconds, memory, disk)
@@ -182,12 +183,14 @@ def by_rule(jobs):
     rows = []
     for rule, count in counts.items():
         alike = [job for job in jobs if job.rule == rule]
-        sums = {key: sum(getattr(job, key) for job in alike) for key in _SUMMED}
-        rows.append({"rule": rule, "jobs": count} | sums | {"memory": peak_memory(alike, 1)})
+        solves = sum(job.solves for job in alike)
+        sums = {key: math.fsum(getattr(job, key) for job in alike) for key in _SUMMED}
+        row = {"rule": rule, "jobs": count, "solves": solves} | sums
+        rows.append(row | {"memory": peak_memory(alike, 1)})
     return rows
 
 
-_SUMMED = ("solves", "seconds", "disk")
+_SUMMED = ("seconds", "disk")
 
 
 def elapsed(jobs, cores):
@@ -226,7 +229,7 @@ def peak_memory(jobs, cores):
     -------
     float
     """
-    return sum(heapq.nlargest(cores, (job.memory for job in jobs)))
+    return math.fsum(heapq.nlargest(cores, (job.memory for job in jobs)))
 
 
 def _plain_job(rule):

@@ -44,6 +44,14 @@ def test_a_file_less_and_a_file_more_are_told(folder):
     assert findings(folder) == {("missing", "a/table.csv"), ("extra", "a/mine.csv")}
 
 
+def test_a_scene_that_was_read_and_not_built_is_no_finding(folder):
+    (folder / "mine").mkdir()
+    (folder / "mine/scene.json").write_text("{}")
+    assert findings(folder) == set()
+    (folder / "mine/table.csv").write_text("n\n1\n")
+    assert findings(folder) == {("extra", "mine/scene.json"), ("extra", "mine/table.csv")}
+
+
 def test_the_digest_beside_a_file_must_be_its_own(folder):
     (folder / "a/.table.csv.sha256").write_text("0  table.csv\n")
     assert findings(folder) == {("changed", "a/table.csv")}

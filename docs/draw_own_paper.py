@@ -1,0 +1,47 @@
+"""Draw the first page of an article of one's own, docs/pictures/own_paper.png, for README.md.
+
+    python docs/draw_own_paper.py results/footing/paper.pdf
+
+It takes the PDF that the two lines of README's "Your own paper" build, and needs pdftoppm (Debian:
+poppler-utils). White margins are cut.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from PIL import Image
+
+PICTURE = Path(__file__).resolve().parent / "pictures/own_paper.png"
+RESOLUTION = 80  # pixels per inch
+MARGIN = 12  # pixels of white that are left around the text
+COLOURS = 16
+
+
+def main(words):
+    """Draw the picture."""
+    if len(words) != 1 or words[0].startswith("-"):
+        print(__doc__)
+        return
+    with TemporaryDirectory() as folder:
+        page = Path(folder, "page")
+        options = ["-png", "-singlefile", "-gray", "-r", str(RESOLUTION), words[0], str(page)]
+        subprocess.run(["pdftoppm", *options], check=True)
+        picture = Image.open(page.with_suffix(".png"))
+        cut(picture).quantize(COLOURS).save(PICTURE, optimize=True)
+    print(PICTURE)
+
+
+def cut(picture):
+    """A page of text without its white margins and its page number."""
+    ink = np.asarray(picture.convert("L")) < 128
+    ink[int(0.85 * len(ink)) :] = False  # the page number
+    rows, columns = (np.flatnonzero(ink.any(axis=axis)) for axis in (1, 0))
+    box = (columns[0] - MARGIN, rows[0] - MARGIN, columns[-1] + MARGIN, rows[-1] + MARGIN)
+    return picture.crop(tuple(map(int, box)))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -7,7 +7,7 @@ run := .venv/bin/python -m
 # An unpacked artifact installs from its own wheels, without a network.
 offline := $(if $(wildcard wheels),--no-index --find-links wheels)
 
-.PHONY: help paper test lint docs petsc readme examples studies requirements clean distclean
+.PHONY: help paper test lint docs petsc readme examples studies artifact requirements clean distclean
 .NOTPARALLEL:
 
 help:

@@ -96,6 +96,17 @@ def test_a_copy_without_a_record_is_held_against_a_named_one(folder, tmp_path):
         ('{"format": 1, "results": "r", "products": {"../x": {}}}', "leads out of its folder"),
         ('{"format": 1, "results": "r", "products": {"/etc/passwd": {}}}', "leads out"),
         ('{"format": 1, "results": "r", "products": {"r/x": {"sha256": 1}}}', "no SHA-256"),
+        *(
+            (f'{{"format": 1, "results": "r", "products": {{}}, {told}}}', "are not as")
+            for told in (
+                '"source": ["x"]',
+                '"failed": 7',
+                '"jobs": {"outputs": []}',
+                '"jobs": ["x"]',
+                '"jobs": [{"outdated": 3}]',
+                '"jobs": [{"outdated": ["x"], "outputs": [1]}]',
+            )
+        ),
     ],
 )
 def test_a_record_that_says_nothing_is_refused_in_one_line(folder, content, told):

@@ -12,12 +12,8 @@ from signorini.errors.exact import ExactErrors
 from signorini.storage import read_npz, write_csv, write_npz
 
 _FILE, _KIND = "run.npz", "adaptive run"
-_LIMITS = (
-    "bound",
-    "max_dofs",
-    "max_seconds",
-    "max_memory",
-)  # of a goal: they may change, and the run goes on
+# Of a goal: they may change, and the run goes on.
+_LIMITS = ("bound", "max_dofs", "max_seconds", "max_memory")
 
 
 @dataclass

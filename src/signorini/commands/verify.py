@@ -59,7 +59,7 @@ def _folder(folder, against, published):
     for scene in scenes_with_check(folder) if safe else ():
         findings, words = check_numbers(scene, published)
         found, told = [*found, *findings], [*told, *filter(None, [words])]
-    source = record.get("source") or {}
+    source = record.get("source", {})
     summary = f"{folder}: {len(found)} findings" if found else f"{folder}: as its record says"
     lines = [*map(str, found), *told, f"commit {source.get('commit')}", summary]
     data = {"findings": [vars(finding) for finding in found], "told": told, "source": source}

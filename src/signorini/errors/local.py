@@ -93,10 +93,11 @@ def gradient_errors_by_reference(mesh, element, u, finer, reference):
     mean = finer.gradients(kind.vertex_values(finer, reference.u))
     variance = np.zeros(mean.shape[1])
     while not finer.same_as(mesh):
-        mean, variance = _coarsened(finer, mean, variance)
-        finer = finer.coarser()
-        if finer is None:
+        coarser = finer.coarser()
+        if coarser is None:
             raise MeshError("mesh: the reference's is no refinement of it; give that of its scene")
+        mean, variance = _coarsened(finer, mean, variance)
+        finer = coarser
     slopes = mesh.gradients(find_element(element).vertex_values(mesh, u))
     return np.sqrt(variance + ((mean - slopes) ** 2).sum(axis=0))
 

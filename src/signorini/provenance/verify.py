@@ -101,7 +101,27 @@ def _parsed(path):
         digest = told.get("sha256") if isinstance(told, dict) else None
         if not (isinstance(digest, str) and _SHA256.fullmatch(digest)):
             raise StorageError(f"{path}: {name}: no SHA-256; `signorini provenance` writes it")
+    if not _tells_a_run(record):
+        raise StorageError(
+            f"{path}: source, failed or jobs are not as `signorini provenance` writes them"
+        )
     return record
+
+
+def _tells_a_run(record):
+    """Whether what a record tells of its run has the form of one; anybody may have written it."""
+    jobs = record.get("jobs", [])
+    return (
+        isinstance(record.get("source", {}), dict)
+        and _are_names(record.get("failed", []))
+        and isinstance(jobs, list)
+        and all(isinstance(job, dict) for job in jobs)
+        and all(_are_names(job.get(key, [])) for job in jobs for key in ("outdated", "outputs"))
+    )
+
+
+def _are_names(found):
+    return isinstance(found, list | dict) and all(isinstance(name, str) for name in found)
 
 
 def check_files(folder, record, below=""):
@@ -158,19 +178,16 @@ def _held(folder, path, wanted):
 
 def _of_run(record, start):
     """How the run ended, and what it left outdated."""
-    failed = ", ".join(map(str, record.get("failed") or [])) or "the run"
-    found = (
-        [] if record.get("state") == COMPLETE else [Finding("failed", failed, "did not end well")]
-    )
-    jobs = record.get("jobs")
-    for job in jobs if isinstance(jobs, list) else []:
-        outdated = job.get("outdated") if isinstance(job, dict) else None
-        outputs = [path for path in job["outputs"] if path.startswith(start)] if outdated else []
-        inputs = ", ".join(map(str, outdated or []))
-        found += [
-            Finding("outdated", path.removeprefix(start), f"made from another {inputs}")
-            for path in outputs
-        ]
+    failed = ", ".join(record.get("failed", [])) or "the run"
+    ended_well = record.get("state") == COMPLETE
+    found = [] if ended_well else [Finding("failed", failed, "did not end well")]
+    for job in record.get("jobs", []):
+        if inputs := ", ".join(job.get("outdated", [])):
+            found += [
+                Finding("outdated", path.removeprefix(start), f"made from another {inputs}")
+                for path in job.get("outputs", [])
+                if path.startswith(start)
+            ]
     return found
 
 
@@ -233,7 +250,8 @@ def _compared(folder, published):
     read_small(folder / "scene.json")
     scene = read_validated(folder / "scene.json")
     table = published or scene.document["publication"]["published"]
-    check_inside(table, folder / "scene.json") if published is None else None
+    if published is None:
+        check_inside(table, folder / "scene.json")
     numbers = list(read_published(table).values())
     declared = declared_keys(scene.document)
     tables = dict.fromkeys(filter(None, (table_of(number.key, declared) for number in numbers)))

@@ -69,27 +69,29 @@ def sums_on_coarser(mesh, values, most_triangles):
     >>> sums_on_coarser(grid, np.ones(32), most_triangles=8).tolist()
     [4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0]
     """
-    while mesh.number_of_triangles > most_triangles:
-        coarser = mesh.coarser()
-        if coarser is None:
-            break
+    for finer in _levels_down(mesh, most_triangles)[:-1]:
         corners = np.tile(values, (3, 1))
-        values = mesh.vertex_children(corners)[:, 0].sum(axis=0)
-        mesh = coarser
+        values = finer.vertex_children(corners)[:, 0].sum(axis=0)
     return values
 
 
-def _coarsened(mesh, values, most_triangles):
-    while mesh.number_of_triangles > most_triangles:
-        coarser = mesh.coarser()
+def _levels_down(mesh, most_triangles):
+    """A mesh and those that it was refined from, down to one of not too many triangles."""
+    levels = [mesh]
+    while levels[-1].number_of_triangles > most_triangles:
+        coarser = levels[-1].coarser()
         if coarser is None:
             break
-        children = mesh.vertex_children(values)
-        values = np.stack(
-            [children[k, k] for k in range(3)]
-        )  # child k keeps corner k of its parent
-        mesh = coarser
-    return mesh, values
+        levels.append(coarser)
+    return levels
+
+
+def _coarsened(mesh, values, most_triangles):
+    *finer, shown = _levels_down(mesh, most_triangles)
+    for level in finer:
+        children = level.vertex_children(values)
+        values = np.stack([children[k, k] for k in range(3)])  # child k keeps its parent's corner k
+    return shown, values
 
 
 def edges_of(mesh, label):

@@ -2,8 +2,10 @@
 
 import matplotlib
 
-from signorini.figures.style import STYLE, TEXT_WIDTH, new_figure
+from signorini.figures.style import ACCENT, STYLE, TEXT_WIDTH, new_figure
 
+# Twelve lines that can be told apart, in grey too; the first is drawn thick.
+_COLOURS = ("black", ACCENT, "0.6")
 _LINES = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)))
 _MARGIN = 1.5  # by which the axis goes beyond the largest ratio
 
@@ -25,8 +27,12 @@ def draw_profiles(profiles):
     axes = figure.add_axes((0.09, 0.15, 0.63, 0.8), xscale="log")
     end = _MARGIN * max(tau[-1] for tau, _ in profiles.values())
     for number, (name, (tau, rho)) in enumerate(profiles.items()):
-        line = _LINES[number % len(_LINES)]
-        axes.step([*tau, end], [*rho, rho[-1]], where="post", linestyle=line, label=name)
+        look = {
+            "color": _COLOURS[number % len(_COLOURS)],
+            "linestyle": _LINES[number // len(_COLOURS) % len(_LINES)],
+            "linewidth": 1.2 if number else 2.0,
+        }
+        axes.step([*tau, end], [*rho, rho[-1]], where="post", label=name, **look)
     axes.set(xlim=(1.0, end), ylim=(0.0, 1.02), ylabel="share of problems solved")
     axes.set_xlabel("time over that of the fastest, at most")
     axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0))

@@ -4,7 +4,7 @@ As `solvers.select.solve`: the data are scaled by a power of two and counted fro
 solution is found, and its proof is computed anew from the data, by reductions over the processes.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,21 +70,13 @@ def solve_together(piece, comm):
     """
     upper = piece.problem.upper
     problem = mirrored(piece.problem) if upper else piece.problem
-    joined = join(_with_problem(piece, problem), comm)
+    joined = join(replace(piece, problem=problem), comm)
     _check_held(joined.share)
     found = _solved(joined.share)
     return (_mirrored(found) if upper else found), joined
 
 
-def _with_problem(piece, problem):
-    from dataclasses import replace
-
-    return replace(piece, problem=problem)
-
-
 def _mirrored(found):
-    from dataclasses import replace
-
     parts = {name: negated(getattr(found, name)) for name in ("u", "multiplier", "lower")}
     return replace(found, **parts)
 

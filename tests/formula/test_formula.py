@@ -1,4 +1,4 @@
-"""Formulas: values against plain numpy, signs of zero, what is not finite, and when."""
+"""Formulas: values against plain numpy, signs of zero, and what is not finite."""
 
 import math
 import os

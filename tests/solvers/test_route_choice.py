@@ -1,0 +1,75 @@
+"""Which route `solve` takes, and why."""
+
+import sys
+
+import pytest
+
+from builders import delaunay, grid, statement
+from signorini.exceptions import SolverError
+from signorini.fem.elements import ELEMENTS
+from signorini.fem.problem import discretize_on
+from signorini.mesh.triangulation import Triangulation
+from signorini.solvers import METHODS, solve
+
+CHOICES = {
+    "grid": (
+        lambda: grid(4),
+        {},
+        "fourier",
+        "uniform grid, equal conditions beside the contact side",
+    ),
+    "no contact": (
+        lambda: grid(4, labels=("neumann", "neumann", "dirichlet", "neumann")),
+        {},
+        "fourier",
+        "no contact part: plain Poisson",
+    ),
+    "triangulation": (
+        lambda: Triangulation.from_skfem(grid(4).skfem),
+        {},
+        "direct",
+        "the mesh is not a uniform grid",
+    ),
+    "unlike sides": (
+        lambda: grid(4, labels=("contact", "dirichlet", "dirichlet", "neumann")),
+        {},
+        "direct",
+        "the two sides beside the contact side differ in kind",
+    ),
+    "one cell": (lambda: grid(1), {}, "direct", "the grid is a single cell wide"),
+    "coefficient": (lambda: grid(4), {"coefficient": 2}, "direct", "the coefficient is not 1"),
+}
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+@pytest.mark.parametrize("case", CHOICES)
+def test_auto_takes_the_cheapest_route_that_applies_and_says_why(element, case):
+    mesh, data, method, reason = CHOICES[case]
+    solution = solve(discretize_on(mesh(), element, statement(f=-1, **data)))
+    assert solution.method == method
+    assert reason in solution.reason
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_route_that_was_asked_for_is_taken(method):
+    solution = solve(discretize_on(grid(4), "P1", statement(f=-1)), method)
+    assert (solution.method, solution.reason) == (method, "asked for")
+
+
+def test_an_unknown_method_is_refused_with_the_known_ones():
+    with pytest.raises(SolverError, match="unknown method 'cg'; known: auto, fourier, direct"):
+        solve(discretize_on(grid(4), "P1", statement()), "cg")
+
+
+def test_a_route_that_does_not_apply_says_why():
+    with pytest.raises(
+        SolverError,
+        match="fourier does not apply, the mesh is not a uniform grid; use auto or direct",
+    ):
+        solve(discretize_on(delaunay(0), "P1", statement()), "fourier")
+
+
+def test_a_route_not_taken_is_not_imported(monkeypatch):
+    monkeypatch.delitem(sys.modules, "signorini.solvers.direct", raising=False)
+    solve(discretize_on(grid(4), "P1", statement(f=-1)))
+    assert "signorini.solvers.direct" not in sys.modules

@@ -60,6 +60,19 @@ def test_slopes_are_those_of_the_table_but_for_round_off(cards):
     assert re.findall(r"<td>(.*?)</td>", row) == ["1.98", "–"]
 
 
+def test_figures_go_by_what_they_show(results, cards):
+    assert ">a b#1</a>" in cards["punch"]
+    from signorini import load_scene
+    from signorini.report.gallery_page import card_of
+
+    scene, folder = load_scene("config/scenes/corner.yaml"), results / "named"
+    (folder / "figures").mkdir(parents=True)
+    for name in ("h1_semi", "contact_line"):
+        (folder / f"figures/{name}.png").touch()
+    named = card_of(scene, folder, results)["links"]["figures"]
+    assert [text for text, _ in named] == ["contact line", "H1 seminorm"]
+
+
 def test_a_text_of_a_scene_is_no_markup(tmp_path):
     from signorini import load_scene
     from signorini.report.gallery_page import card_of, gallery_page
@@ -69,11 +82,15 @@ def test_a_text_of_a_scene_is_no_markup(tmp_path):
     assert "<script>" not in page
 
 
+PADDING = 24  # at most, in pixels, below the last line of a card
 STEPS = """
 const [picture] = document.images;
 told.steps.push({
   decoded: picture.complete && picture.naturalWidth > 0, pictures: document.images.length,
   too_wide: document.documentElement.scrollWidth > innerWidth,
+  blank: Array.from(document.querySelectorAll("article"), (card) =>
+    card.getBoundingClientRect().bottom - card.lastElementChild.getBoundingClientRect().bottom),
+  stretched: picture.width / picture.height / (picture.naturalWidth / picture.naturalHeight) - 1,
 });
 """
 
@@ -85,7 +102,10 @@ def test_a_browser_shows_it_without_a_network(results, tmp_path, width):
     told = told_by(page, tmp_path, STEPS, size=(width, 900))
     assert told["wrong"] == []
     assert [name for name in told["requests"] if not name.startswith("data:")] == []
-    assert told["steps"] == [{"decoded": True, "pictures": 1, "too_wide": False}]
+    (step,) = told["steps"]
+    assert max(step.pop("blank")) < PADDING  # a card ends where what it tells ends
+    assert abs(step.pop("stretched")) < 0.02  # of a pixel in some hundred
+    assert step == {"decoded": True, "pictures": 1, "too_wide": False}
 
 
 def test_a_picture_has_its_colours_and_no_more(results):

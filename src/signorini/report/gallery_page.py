@@ -63,8 +63,10 @@ def _links(folder, home, patterns):
 
 
 def _text(file):
-    """A figure goes by its name alone."""
-    return file.stem if file.suffix == ".png" else file.name
+    """A figure goes by what it shows, a table by its file."""
+    if file.suffix != ".png":
+        return file.name
+    return NORMS[file.stem].text if file.stem in NORMS else file.stem.replace("_", " ")
 
 
 def _address(file, home):

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from importlib.util import find_spec
 
 import pytest
@@ -55,3 +56,45 @@ def test_jobs_run_on_a_cluster(fresh, slurm):
     assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
     assert run.text.count("has been submitted with SLURM jobid") == 3
     assert all((fresh / target).is_file() for target in targets)
+
+
+CLUSTER = ("--workflow-profile", "profiles/slurm", *HERE, *SOON)
+
+
+def test_a_job_ended_by_scancel_is_tried_again_with_twice_the_memory(fresh, slurm):
+    """Jobs wait where the node takes none, so that the first is still there when it is ended."""
+    target = "results/small/solutions/P1/n2.npz"
+    fresh.build("--until", "mesh", "--", target)
+    hold("drain")
+    with fresh.start(*CLUSTER, "--", target, cores=None) as process:
+        try:
+            first, memory = waiting()
+            subprocess.run(["scancel", first], check=True)
+            second, more = waiting(without=first)
+            hold("resume")
+            text, _ = process.communicate(timeout=120)
+        finally:
+            process.kill()
+    assert process.returncode == 0, text
+    assert second != first
+    assert more == 2 * memory
+    assert (fresh / target).is_file()
+
+
+def hold(state):
+    """Let the node take no more jobs, or take them again."""
+    host = subprocess.check_output(["hostname", "-s"], text=True).strip()
+    update = ["scontrol", "update", f"nodename={host}", f"state={state}", "reason=test"]
+    subprocess.run(update, check=True)
+
+
+def waiting(without=None):
+    """The job that waits in the queue, and the megabytes that it asks for."""
+    for _ in range(300):
+        listed = ["squeue", "--noheader", "--states=PENDING", "--format=%i %m"]
+        jobs = [line.split() for line in subprocess.check_output(listed, text=True).splitlines()]
+        for name, memory in jobs:
+            if name != without:
+                return name, int(memory.removesuffix("M"))
+        time.sleep(0.2)
+    raise AssertionError("no job in the queue after a minute")

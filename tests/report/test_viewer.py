@@ -119,9 +119,33 @@ const step = (name) => told.steps.push({
   too_wide: document.documentElement.scrollWidth > innerWidth,
 });
 const shows = (what) => until(() => document.body.dataset.shown === what);
-told.before = window.Plotly === undefined && numbers()["n"];
+const pixels = () => {
+  const canvas = at("first");
+  const content = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  return content.filter((value, k) => k % 4 === 3 && value > 0).length / content.length * 4;
+};
+told.before = {plotly: window.Plotly !== undefined, n: numbers()["n"], filled: pixels(),
+  painted: document.body.dataset.painted};
+at("surface").dispatchEvent(new PointerEvent("pointermove", {buttons: 1, movementX: 30}));
+told.dragged = {...eye};
+at("reset").click();
 await shows("P1 64");
 step("start");
+const {dataScale, glplot} = at("surface")._fullLayout.scene._scene;
+const times = (matrix, point) => [0, 1, 2, 3].map((row) =>
+  point.reduce((sum, value, column) => sum + matrix[4 * column + row] * value, 0));
+const {width, height} = at("surface").querySelector("canvas").getBoundingClientRect();
+const mine = projection(width, height);
+const plotly = (point) => {
+  const {model, view, projection} = glplot.cameraParams;
+  const scaled = [...point.map((value, k) => value * dataScale[k]), 1];
+  const [x, y, , w] = times(projection, times(view, times(model, scaled)));
+  return [(1 + x / w) / 2 * width, (1 - y / w) / 2 * height];
+};
+told.places = [[-1, 0, 0], [1, 1, -0.5], [0.3, 0.2, 0.1]].map((point) =>
+  ({plotly: plotly(point), mine: mine(...point).slice(0, 2), width}));
+told.paintedWidth = at("surface").clientWidth - MARGIN;
+told.hidden = at("first").hidden;
 at("CR").click();
 await shows("CR 64");
 step("element");
@@ -148,8 +172,48 @@ def test_the_page_asks_the_network_for_nothing_and_nothing_goes_wrong(told):
     assert [name for name in told["requests"] if not name.startswith(("data:", "blob:"))] == []
 
 
-def test_the_numbers_are_there_before_anything_is_drawn(told):
-    assert told["before"] == "64"
+def test_numbers_and_a_first_view_are_there_before_plotly_is_read(told):
+    before = told["before"]
+    assert before.pop("filled") > 0.05
+    assert before == {"plotly": False, "n": "64", "painted": "P1 64"}
+    assert told["hidden"]
+
+
+def test_the_first_view_is_where_plotly_puts_the_surface(told):
+    for place in told["places"]:
+        np.testing.assert_allclose(place["mine"], place["plotly"], atol=0.5)  # pixels
+        assert place["width"] == told["paintedWidth"]
+
+
+def test_the_first_view_turns_by_dragging(told):
+    start, end = told["steps"][0]["eye"], told["dragged"]
+    assert np.hypot(end["x"], end["y"]) == pytest.approx(np.hypot(start["x"], start["y"]))
+    turned = np.arctan2(end["y"], end["x"]) - np.arctan2(start["y"], start["x"])
+    assert turned == pytest.approx(-0.3)
+
+
+NO_WEBGL = """<head><script>
+const own = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind) {
+  return kind === "2d" ? own.call(this, kind) : null;
+};
+</script>"""
+FLAT = """
+await until(() => document.body.dataset.shown === "P1 64");
+at("CR").click();
+await until(() => document.body.dataset.shown === "CR 64");
+told.steps.push({painted: document.body.dataset.painted, told: !at("flat").hidden,
+  hidden: at("first").hidden, lines: at("line").data.length});
+"""
+
+
+@pytest.mark.skipif(not CHROMIUM, reason=MISSING)
+def test_a_browser_without_webgl_keeps_the_painted_view(page, tmp_path):
+    told = told_by(page.replace("<head>", NO_WEBGL, 1), tmp_path, FLAT)
+    assert told["wrong"] == []
+    (step,) = told["steps"]
+    assert step.pop("lines") > 0
+    assert step == {"painted": "CR 64", "told": True, "hidden": False}
 
 
 def test_the_numbers_follow_the_element_and_the_level(told, rows):

@@ -10,7 +10,7 @@ import time
 from importlib.util import find_spec
 
 import pytest
-from project import ROOT
+from project import ROOT, Project
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch")
 MISSING = [program for program in PROGRAMS if not shutil.which(program)]
@@ -35,6 +35,7 @@ pytestmark = [
 # This Slurm keeps no accounts; and it is looked at more often than a cluster wants to be.
 HERE = ["--slurm-status-command", "squeue", "--slurm-no-account"]
 SOON = ["--slurm-init-seconds-before-status-checks", "1", "--seconds-between-status-checks", "1"]
+CLUSTER = ["--workflow-profile", "profiles/slurm", *HERE]
 
 
 @pytest.fixture
@@ -50,15 +51,48 @@ def slurm(tmp_path):
 def test_jobs_run_on_a_cluster(fresh, slurm):
     """A mesh and a solve, and a job of the benchmark, which has the node for itself."""
     targets = ["results/small/solutions/P1/n2.npz", "results/studies/benchmark/machine.json"]
-    run = fresh.build(
-        "--workflow-profile", "profiles/slurm", *HERE, *SOON, "--", *targets, cores=None
-    )
+    run = fresh.build(*CLUSTER, *SOON, "--", *targets, cores=None)
     assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
     assert run.text.count("has been submitted with SLURM jobid") == 3
     assert all((fresh / target).is_file() for target in targets)
 
 
-CLUSTER = ("--workflow-profile", "profiles/slurm", *HERE, *SOON)
+SWEEP = """\
+domain: {kind: rectangle}
+boundary: {bottom: contact, right: neumann, top: neumann, left: neumann}
+data: {f: -1, obstacle: 0}
+elements: [CR]
+levels: [4]
+outputs: []
+sweep: {data.f: [-1, -2, 1, -3], domain.diagonal: [falling, rising]}
+"""
+TABLES = (
+    "results/paper/errors.csv",
+    "results/paper/rates.csv",
+    "results/small/sweep.csv",
+    "results/small/sweep_summary.csv",
+    "results/small/sweep_summary.md",
+)
+JOBS = {"mesh": 1, "solve": 12, "reference": 1, "errors": 1, "rates": 1}
+JOBS |= {"sweep_points": 2, "sweep_table": 1}
+# Four solves share one, and what follows from the errors of a scene.
+ALLOCATIONS = sum(JOBS.values()) - (12 - 3) - (2 - 1)
+
+
+def test_tables_are_those_of_a_local_run_byte_for_byte(tmp_path, slurm):
+    """Of the paper's scene and of a sweep in two bundles; and a second run has nothing to do.
+
+    Not `SOON`: after each look at which no job has ended, the plugin waits 10 s longer.
+    """
+    asked = ("--config", "sweep_jobs=2", "--", *TABLES)
+    local, cluster = (Project.fresh(tmp_path / name, scene=SWEEP) for name in ("local", "cluster"))
+    local.build(*asked)
+    run = cluster.build(*CLUSTER, *asked, cores=None)
+    for table in TABLES:
+        assert (cluster / table).read_bytes() == (local / table).read_bytes(), table
+    assert run.jobs == JOBS
+    assert run.text.count("has been submitted with SLURM jobid") == ALLOCATIONS
+    assert cluster.jobs(*asked) == {}
 
 
 def test_a_job_ended_by_scancel_is_tried_again_with_twice_the_memory(fresh, slurm):
@@ -66,7 +100,7 @@ def test_a_job_ended_by_scancel_is_tried_again_with_twice_the_memory(fresh, slur
     target = "results/small/solutions/P1/n2.npz"
     fresh.build("--until", "mesh", "--", target)
     hold("drain")
-    with fresh.start(*CLUSTER, "--", target, cores=None) as process:
+    with fresh.start(*CLUSTER, *SOON, "--", target, cores=None) as process:
         try:
             first, memory = waiting()
             subprocess.run(["scancel", first], check=True)

@@ -10,7 +10,6 @@ from builders import DATA, delaunay, grid, labelled, statement
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize_on
 from signorini.solvers import kkt_residual, solve
-from signorini.solvers.solution import status_of
 
 MESHES = {"grid": lambda: grid(12), "delaunay": lambda: delaunay(0)}
 
@@ -170,22 +169,3 @@ def test_nothing_at_all_is_solved_by_nothing_and_nothing_else_is(element):
     for size in (1e-300, 1.0, 1e300):
         loaded = discretize_on(grid(4), element, statement(f=size))
         assert kkt_residual(loaded, np.zeros(problem.b.size))[0] == 1.0
-
-
-@pytest.mark.parametrize(
-    ("residual", "status"),
-    [
-        (0.0, "solved"),
-        (1e-10, "solved"),
-        (1.1e-10, "inaccurate"),
-        (1e-6, "inaccurate"),
-        (1.1e-6, "failed"),
-    ],
-)
-def test_a_residual_has_a_name(residual, status):
-    assert status_of(residual) == status
-
-
-@pytest.mark.parametrize("residual", [np.nan, np.inf])
-def test_no_residual_is_no_solution(residual):
-    assert status_of(residual) == "failed"

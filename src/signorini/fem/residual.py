@@ -74,6 +74,33 @@ def residual_and_fluxes(A, b, u, rows=None, sums=None):
     return _by_differences(A, b, u, rows, sums, fluxes), fluxes
 
 
+def contact_fluxes_of(rows, contact, u):
+    """What flows into contact dofs, summed from differences of u; see `Problem.contact_fluxes`.
+
+    Parameters
+    ----------
+    rows : scipy.sparse.csr_array, shape (c, n)
+        Those of the stiffness matrix that belong to the contact dofs.
+    contact : ndarray of int, shape (c,)
+    u : ndarray, shape (n,)
+
+    Returns
+    -------
+    force, fluxes, sizes : ndarray, shape (c,)
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> A = csr_array([[1.0, -1.0], [-1.0, 1.0]])
+    >>> contact_fluxes_of(A[[0]], np.array([0]), np.array([2.0, 5.0])).tolist()
+    [[-3.0], [3.0], [7.0]]
+    """
+    if not contact.size:
+        return np.zeros((3, 0))
+    less, fluxes = residual_and_fluxes(rows, np.zeros(contact.size), u, contact)
+    return np.stack([-less, fluxes, abs(rows) @ np.abs(u)])
+
+
 def row_sums(A):
     """The sum of each row of a matrix, shape (m,): zero where it is no more than round-off.
 

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from signorini.solvers.extremes import largest
 from signorini.solvers.level import COARSEST_SIZE, Level
-from signorini.solvers.solution import largest
 
 _STRONG = 0.25  # of the largest negative coupling of a row, from which on a coupling is strong
 _LARGEST_WEIGHT = 2.0  # weight of an interpolation that positive couplings have spoilt

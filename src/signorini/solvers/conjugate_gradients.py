@@ -6,8 +6,8 @@ import numpy as np
 
 from signorini.fem.residual import EPS, FAR_BELOW_EPS
 from signorini.solvers.dot import dot
+from signorini.solvers.extremes import largest
 from signorini.solvers.route_result import ROUNDING
-from signorini.solvers.solution import largest
 from signorini.work import count
 
 DIGITS = 1e-8  # to which a correction is worked out before the next residual

@@ -22,6 +22,7 @@ from signorini.memory import check_memory
 from signorini.solvers.conditioning import STRETCHED, accuracy_loss_causes, has_jumps
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.dot import dot
+from signorini.solvers.extremes import largest
 from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
@@ -35,7 +36,6 @@ from signorini.solvers.route_result import (
     violated_signs,
 )
 from signorini.solvers.schur_complement import SchurComplement, singular_message
-from signorini.solvers.solution import largest
 
 _MAX_STEPS = 100
 _STRICT_STEPS = 10  # steps in which signs count that may be rounding

@@ -15,6 +15,7 @@ from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
 from signorini.solvers.contact import solve_contact
+from signorini.solvers.extremes import largest
 from signorini.solvers.line_elimination import EdgeLines, VertexLines
 from signorini.solvers.oriented_grid import orient
 from signorini.solvers.pivoting import PivotingRule
@@ -26,7 +27,6 @@ from signorini.solvers.route_result import (
     variation_of,
     violated_signs,
 )
-from signorini.solvers.solution import largest
 from signorini.solvers.spectral import contact_operator
 from signorini.work import count
 

@@ -21,10 +21,10 @@ import numpy as np
 
 from signorini.solvers.cycle import Cycle
 from signorini.solvers.dot import dot
+from signorini.solvers.extremes import largest
 from signorini.solvers.level_solver import LevelSolver
 from signorini.solvers.multigrid import Obstacle, levels_and_obstacles, prolong
 from signorini.solvers.route_result import RouteResult
-from signorini.solvers.solution import largest
 from signorini.work import count, counting
 
 SHARE = 0.1  # of the discretisation error: what the algebraic error may be

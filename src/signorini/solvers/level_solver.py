@@ -11,6 +11,7 @@ from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
 from signorini.solvers.conjugate_gradients import ConjugateGradients, approximate_solution
 from signorini.solvers.cycle import preconditioner
 from signorini.solvers.dot import dot
+from signorini.solvers.extremes import largest
 from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
@@ -19,7 +20,6 @@ from signorini.solvers.route_result import (
     assess,
     error_bounds,
 )
-from signorini.solvers.solution import largest
 from signorini.work import count
 
 _MAX_STEPS, _MAX_CORRECTIONS = 300, 30

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.fem.residual import EPS
-from signorini.solvers.solution import SOLVED
+from signorini.solvers.proof import SOLVED
 
 _ROUND_OFF_GAP = 2.0**-44  # of the variation of u: below any gap that the mesh resolves
 # Of the forces acting: a contact force smaller than this is not what others are measured by.

@@ -12,7 +12,7 @@ from signorini.exceptions import SolverError
 from signorini.fem.elements import find_element
 from signorini.fem.residual import EPS
 from signorini.solvers.conditioning import accuracy_loss_causes
-from signorini.solvers.solution import largest
+from signorini.solvers.extremes import largest
 from signorini.work import count
 
 _LEAF = 8

@@ -1,28 +1,27 @@
 """`solve`: check the problem, choose a route, prove the result."""
 
 import importlib
-import warnings
+from functools import partial
 
 import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
-from signorini.fem.residual import EPS
 from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
-from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult, variation_of
+from signorini.solvers.proof import accuracy_of, proved_status
+from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult
 from signorini.solvers.routes import ALL_METHODS, REQUESTED, choose_route
-from signorini.solvers.solution import Solution, kkt_residual, largest, status_of
+from signorini.solvers.scaling import (
+    add_constant,
+    at_rest,
+    exponent_of,
+    resting_at,
+    solve_from_constant,
+)
+from signorini.solvers.solution import Solution, kkt_residual
 
 ACCURACIES = ("full", "discretisation")
-
-# On the estimated error of u where dofs are undecided. Errors of u above 1e-13 and above their
-# estimate were met there alone: four times it at most in the stability suite, three times it on
-# graded cells. With undecided dofs no force was further off than its estimate.
-_UNDECIDED_MARGIN = 10.0
-_NEARLY_CONSTANT = (
-    2.0**-6
-)  # Dirichlet values and obstacle that vary by less of their size are shifted
 
 
 def solve(problem, method="auto", guess=None, accuracy="full"):
@@ -75,13 +74,14 @@ def solve(problem, method="auto", guess=None, accuracy="full"):
 
 def _solved(problem, method, reason, guess, wanted):
     """The solution of a problem whose constraint is from below."""
-    exponent = _exponent(problem)
+    exponent = exponent_of(problem)
     scaled = problem.scaled(-exponent)
     if method != "fourier":
         check_symmetric(scaled.A)
-    shifted, constant, (result, method, reason) = _solve_shifted(
-        scaled, method, reason, guess, wanted
-    )
+    find = partial(_solve_or_fall_back, method=method, reason=reason, wanted=wanted)
+    rest = _at_rest(scaled, method, reason)
+    shifted, constant, found = rest or solve_from_constant(scaled, find, guess)
+    result, method, reason = found
     u = result.u
     active, c = result.active, shifted.contact
     u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
@@ -91,7 +91,7 @@ def _solved(problem, method, reason, guess, wanted):
     multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
     with np.errstate(over="ignore"):
         deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
-        u = _add_constant(problem, deviation, np.ldexp(constant, exponent), active)
+        u = add_constant(problem, deviation, np.ldexp(constant, exponent), active)
     _check_size(u, multiplier)
     return Solution(
         u=u,
@@ -125,47 +125,15 @@ def _check_size(u, multiplier):
         )
 
 
-def _solve_shifted(problem, method, reason, guess, wanted):
-    """The problem counted from a constant, that constant, and the result for it.
-
-    Where data do not show that all of the body stays near a constant, far from its obstacle, a
-    first solution does.
-    """
-    rest = _constant_solution(problem)
-    if rest is not None:
-        return problem, 0.0, (rest, method, reason)
-    constant = _constant(problem, near=[problem.fixed_values, problem.lower])
-    shifted = problem.shifted(constant)
-    far = _constant(problem, near=[problem.fixed_values])
-    try:
-        result = _solve_or_fall_back(shifted, method, reason, guess, wanted)
-        varies = np.ptp(result[0].u) > _NEARLY_CONSTANT * largest(result[0].u)
-    except SolverError:
-        if constant or not far:
-            raise
-        varies = False
-    if constant or varies or not far:
-        return shifted, constant, result
-    shifted = problem.shifted(far)
-    return shifted, far, _solve_or_fall_back(shifted, method, reason, None, wanted)
-
-
-def _constant_solution(problem):
-    """The answer where a constant meets every condition exactly, None elsewhere.
-
-    A route would find the constant and its own rounding, which has no size to be measured by.
-    """
-    values, nothing = problem.fixed_values, np.zeros_like(problem.lower)
-    if not values.size or np.ptp(values) or np.any(problem.lower > values[0]):
+def _at_rest(problem, method, reason):
+    """As `solve_from_constant`, where all of u is one constant; None elsewhere."""
+    value = resting_at(problem)
+    if value is None or not problem.mesh.in_one_part:
         return None
-    loaded = np.count_nonzero(problem.b) > np.count_nonzero(problem.b[problem.fixed])
-    if loaded or not (problem.grid is not None or problem.mesh.in_one_part):
-        return None
-    touching = problem.lower == values[0]
-    return RouteResult(np.full_like(problem.b, values[0]), touching, 0, 0.0, nothing, 0.0, touching)
+    return problem, 0.0, (at_rest(problem.b, problem.lower, value), method, reason)
 
 
-def _solve_or_fall_back(problem, method, reason, guess, wanted):
+def _solve_or_fall_back(problem, guess, method, reason, wanted):
     """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
     finds.
     """
@@ -223,59 +191,3 @@ def _checked_status(problem, method, residual, accuracy, result):
             f"{_causes(problem)}, or try another solver.method"
         )
     return status
-
-
-def proved_status(residual, accuracy, result):
-    """That of a solution, with a margin where the contact set is not certain."""
-    margin = _UNDECIDED_MARGIN if result.undecided.any() else 1.0
-    return status_of(residual, margin * accuracy, result.multiplier_accuracy)
-
-
-def accuracy_of(result, constant):
-    """That of u itself, whose last bit is relative to the constant, too.
-
-    It is relative to the variation of u; or to its size, where u is a constant but for that last
-    bit.
-    """
-    variation, size = (
-        variation_of(result.u),
-        max(abs(np.min(result.u) + constant), abs(np.max(result.u) + constant)),
-    )
-    last_bit = float(EPS * size) if result.accuracy or np.ptp(result.u) else 0.0
-    relative_to = variation if variation > 4.0 * last_bit else size
-    return float((result.accuracy * variation + last_bit) / relative_to) if relative_to else 0.0
-
-
-def _add_constant(problem, deviation, constant, active):
-    """u itself, given values taken over as they are; the same array where there is no constant."""
-    if not constant:
-        return deviation
-    u = deviation + constant
-    u[problem.fixed], u[problem.contact[active]] = problem.fixed_values, problem.lower[active]
-    return u
-
-
-def _constant(problem, near):
-    """A constant that u, its Dirichlet values and the obstacle may be counted from; zero where that
-    gains no digits.
-
-    Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding
-    would.
-    """
-    values = np.concatenate(near)
-    low, high = np.min(values, initial=np.inf), np.max(values, initial=-np.inf)
-    if not (values.size and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))):
-        return 0.0
-    return float(low)
-
-
-def _exponent(problem):
-    """The power of two that brings the data to order one; exact, so results scale with the data bit
-    for bit.
-    """
-    size = max(largest(values) for values in (problem.b, problem.lower, problem.fixed_values))
-    if 0.0 < size < np.finfo(float).tiny:
-        warnings.warn(
-            f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=4
-        )
-    return int(np.frexp(size)[1]) if size else 0

@@ -1,4 +1,4 @@
-"""A solution and its proof: the KKT residual, computed from the problem alone."""
+"""A solution, and its KKT residual, computed from the problem alone."""
 
 from dataclasses import dataclass, field, replace
 
@@ -7,13 +7,8 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.discrete_problem import Problem
 from signorini.fem.mirror import mirrored, negated
+from signorini.solvers.proof import violation
 from signorini.work import count
-
-# What a residual or an accuracy may be called, from the best name to the worst.
-SOLVED = 1e-10
-INACCURATE = 1e-6
-_AT_ONCE = 2**16
-_STORED = 2.0 * np.finfo(float).eps  # of (|A| |u|): what rounding u to doubles may add to a force
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,85 +167,4 @@ def kkt_residual(problem, u):
         residual, multiplier = kkt_residual(mirrored(problem), negated(u))
         return residual, negated(multiplier)
     count(products=1)
-    if not np.isfinite([np.min(u, initial=0.0), np.max(u, initial=0.0)]).all():
-        return np.inf, problem.apply(u)[problem.contact] - problem.b[problem.contact]
-    low, length_scale = _variation(problem, u)
-    imbalance = _imbalance(problem, u, low, length_scale)
-    multiplier, pressure, pull = _pressure(problem, u)
-    length_scale = length_scale or 1.0
-    gap = (u[problem.contact] - problem.lower) / length_scale
-    violations = (
-        imbalance,
-        largest(np.maximum(pull, 0.0)),
-        largest(np.minimum(gap, 0.0)),
-        largest(np.minimum(np.maximum(gap, 0.0), np.maximum(pressure, 0.0))),
-        largest(u[problem.fixed] - problem.fixed_values) / length_scale,
-    )
-    worst = float(max(violations))
-    return worst if np.isfinite(worst) else np.inf, multiplier
-
-
-def _variation(problem, u):
-    """The least of u and the Dirichlet values, and how much they and the greatest obstacle vary."""
-    values = (u, problem.fixed_values)
-    low = min(np.min(part, initial=np.inf) for part in values)
-    return low, float(max(np.max(part, initial=-np.inf) for part in (*values, problem.lower)) - low)
-
-
-def _imbalance(problem, u, low, length_scale):
-    """Largest |A u - b| over |b| + diag(A) G among the free dofs off the contact part."""
-    far = (
-        problem.grid is None and abs(low) > length_scale
-    )  # then a product with A would round u, not its variation
-    force = problem.apply(u - low if far else u)
-    force -= problem.b
-    force[problem.contact] = force[problem.fixed] = 0.0
-    scale = _diagonal(problem)
-    scale *= length_scale
-    for first in range(0, force.size, _AT_ONCE):
-        part = slice(first, first + _AT_ONCE)
-        scale[part] += np.abs(problem.b[part])
-        force[part] = np.divide(
-            force[part], scale[part], out=np.zeros(force[part].size), where=scale[part] > 0.0
-        )
-    return largest(force)
-
-
-def _pressure(problem, u):
-    """The multiplier; and by how much, in units of F_c, it is certain to press and to pull."""
-    force, fluxes, sizes = problem.contact_fluxes(u)
-    load = problem.b[problem.contact]
-    multiplier, scale = force - load, np.max(fluxes + np.abs(load), initial=0.0) or 1.0
-    rounding = _STORED * sizes
-    return multiplier, (multiplier - rounding) / scale, (-multiplier - rounding) / scale
-
-
-def largest(values):
-    """Greatest absolute value, without an array of them.
-
-    Examples
-    --------
-    >>> largest(np.array([1.0, -3.0])), largest(np.zeros(0))
-    (3.0, 0.0)
-    """
-    return float(max(np.max(values, initial=0.0), -np.min(values, initial=0.0)))
-
-
-def _diagonal(problem):
-    from signorini.fem.stencil import diagonal
-
-    return problem.A.diagonal() if problem.grid is None else diagonal(problem.grid, problem.element)
-
-
-def status_of(residual, *accuracies):
-    """Name a residual and accuracies: "solved" up to 1e-10, "failed" for a residual above 1e-6,
-    else "inaccurate".
-
-    Examples
-    --------
-    >>> status_of(1e-15, 1e-12), status_of(1e-15, 1e-8), status_of(1e-3)
-    ('solved', 'inaccurate', 'failed')
-    """
-    if max((residual, *accuracies)) <= SOLVED:
-        return "solved"
-    return "inaccurate" if residual <= INACCURATE else "failed"
+    return violation(problem, u)

@@ -59,8 +59,9 @@ def join(piece, comm):
         fixed=fixed,
         fixed_values=fixed_values,
         contact=contact,
+        lower=lower[kept],
         places=first + np.arange(contact.size),
-        lower=np.concatenate(comm.allgather(lower[kept])),
+        count=comm.allreduce(contact.size),
     )
     return Joined(share, own, _threshold(problem, gather, share))
 

@@ -40,7 +40,7 @@ def contact_set(share, guess=None):
     snes.setFromOptions()
     snes.solve(None, x)
     force = share.forces(u, share.b)
-    gap = share.on_contact(u[share.contact]) - share.lower
+    gap = share.on_contact(u[share.contact] - share.lower)
     return u, (gap <= 0.0) & (force > 0.0), snes.getIterationNumber()
 
 
@@ -51,9 +51,8 @@ def _start(share, guess):
     """
     u = np.zeros_like(share.b)
     u[share.fixed] = share.fixed_values
-    lower = share.lower[share.places]
-    free = 0.0 if guess is None else ~guess[share.places] * (1.0 + np.abs(lower))
-    u[share.contact] = lower + free
+    free = 0.0 if guess is None else ~guess[share.places] * (1.0 + np.abs(share.lower))
+    u[share.contact] = share.lower + free
     return u
 
 
@@ -67,12 +66,12 @@ def _without_fixed(share):
 
 
 def _none(share):
-    return np.zeros(share.lower.size, dtype=bool)
+    return np.zeros(share.count, dtype=bool)
 
 
 def _bounds(share):
     from petsc4py import PETSc
 
     low = np.full(share.b.size, PETSc.NINFINITY)
-    low[share.contact] = share.lower[share.places]
+    low[share.contact] = share.lower
     return share.vector(low), share.vector(np.full(share.b.size, PETSc.INFINITY))

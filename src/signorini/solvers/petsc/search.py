@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS, rounding_of
+from signorini.solvers.extremes import largest
 from signorini.solvers.petsc.held import CORRECTION, RESPONSE, Held
 from signorini.solvers.petsc.newton import contact_set
 from signorini.solvers.pivoting import PivotingRule
@@ -24,7 +25,6 @@ from signorini.solvers.route_result import (
     more_accurate,
     violated_signs,
 )
-from signorini.solvers.solution import largest
 
 _MAX_STEPS, _CORRECTIONS = 100, 30
 _STALLED = 0.5  # of the correction before: no gain
@@ -101,7 +101,7 @@ class _State:
         self.u = u.copy()
         self.u[share.fixed] = share.fixed_values
         binds = active[share.places]
-        self.u[share.contact[binds]] = share.lower[share.places][binds]
+        self.u[share.contact[binds]] = share.lower[binds]
         self._refine()
 
     def _refine(self):
@@ -128,7 +128,7 @@ class _State:
         r, self.fluxes = share.residual_and_fluxes(self.u)
         z, self.force = self.held.displacement(r, CORRECTION)
         # The correction goes to the gap before u rounds it off.
-        gap = (self.u[share.contact] - share.lower[share.places]) + z[share.contact]
+        gap = (self.u[share.contact] - share.lower) + z[share.contact]
         self.gap = share.on_contact(gap)
         self.u += z
         self.ends = np.array(share.span(self.u))

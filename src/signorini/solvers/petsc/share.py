@@ -9,7 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.fem.residual import residual_and_fluxes, row_sums
+from signorini.fem.residual import contact_fluxes_of, residual, residual_and_fluxes, row_sums
+from signorini.solvers.extremes import largest, span
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,10 +31,12 @@ class Share:
     fixed_values : ndarray, shape (d,)
     contact : ndarray of int, shape (c,)
         Own dofs under the constraint, by their place here.
+    lower : ndarray, shape (c,)
+        The obstacle at them.
     places : ndarray of int, shape (c,)
         Where they stand among all contact dofs.
-    lower : ndarray, shape (nc,)
-        The obstacle at all contact dofs, of every process.
+    count : int
+        Of all contact dofs, nc.
     """
 
     comm: object
@@ -43,21 +46,21 @@ class Share:
     fixed: np.ndarray
     fixed_values: np.ndarray
     contact: np.ndarray
-    places: np.ndarray
     lower: np.ndarray
+    places: np.ndarray
+    count: int
+
+    grid = None  # of a share no stencil is the whole matrix; see `Problem.grid`
 
     # Reductions: numbers that are the same on every process.
 
     def largest(self, values):
         """Greatest absolute value."""
-        low, high = self.span(values)
-        return max(-low, high, 0.0)
+        return self.maxima([largest(values)])[0]
 
     def span(self, values):
         """Least and greatest value; infinite and the wrong way round where there are none."""
-        ends = [-np.min(values, initial=np.inf), np.max(values, initial=-np.inf)]
-        less, high = self.maxima(ends)
-        return -less, high
+        return span(values, maxima=self.maxima)
 
     def maxima(self, numbers):
         """The greatest over all processes of each of some numbers."""
@@ -77,7 +80,7 @@ class Share:
 
     def on_contact(self, values):
         """Values at all contact dofs, shape (nc,), from those at the own ones, shape (c,)."""
-        whole = np.zeros(self.lower.size)
+        whole = np.zeros(self.count)
         whole[self.places] = values
         return self.total(whole)
 
@@ -135,10 +138,20 @@ class Share:
         """A u - load at all contact dofs, shape (nc,)."""
         return self.on_contact(self._contact_rows @ self.with_ghosts(u) - load[self.contact])
 
-    @cached_property
-    def sizes(self):
-        """The rows of `A` at the own contact dofs, of each entry its size."""
-        return abs(self._contact_rows)
+    def apply(self, u):
+        """A u, (m,), by differences."""
+        everywhere = self.with_ghosts(u)
+        if not self.b.size:
+            return np.zeros(0)
+        return -residual(self.A, np.zeros_like(self.b), everywhere, self._sums)
+
+    def diagonal(self):
+        """The diagonal of the own rows, (m,)."""
+        return self.A.diagonal()
+
+    def contact_fluxes(self, u):
+        """What flows into the own contact dofs, (c,) each; see `Problem.contact_fluxes`."""
+        return contact_fluxes_of(self._contact_rows, self.contact, self.with_ghosts(u))
 
     def constrained(self, active):
         """Mask (m,) of the own dofs that do not move with the contact set `active` (nc,) held."""
@@ -165,10 +178,22 @@ class Share:
 
         return (self.first + np.flatnonzero(mask)).astype(PETSc.IntType)
 
+    def scaled(self, exponent):
+        """The share whose data are 2**exponent times these."""
+        names = ("b", "lower", "fixed_values")
+        return self.with_data(**{name: np.ldexp(getattr(self, name), exponent) for name in names})
+
+    def shifted(self, constant):
+        """The share whose solution is less by a constant; this one where that is 0."""
+        if not constant:
+            return self
+        lower, fixed_values = self.lower - constant, self.fixed_values - constant
+        return self.with_data(lower=lower, fixed_values=fixed_values)
+
     def with_data(self, **data):
         """The same rows with other data; what is known of A is kept."""
         changed = replace(self, **data)
-        for name in ("first", "_scatter", "_sums", "_contact_rows", "sizes", "held_somewhere"):
+        for name in ("first", "_scatter", "_sums", "_contact_rows", "held_somewhere"):
             if name in vars(self):
                 vars(changed)[name] = vars(self)[name]
         return changed
@@ -196,6 +221,7 @@ def whole(problem, comm):
         fixed=problem.fixed,
         fixed_values=problem.fixed_values,
         contact=problem.contact,
-        places=np.arange(problem.contact.size),
         lower=problem.lower,
+        places=np.arange(problem.contact.size),
+        count=problem.contact.size,
     )

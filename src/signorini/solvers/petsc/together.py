@@ -10,15 +10,18 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored, negated
-from signorini.fem.residual import EPS, residual_and_fluxes
+from signorini.fem.residual import EPS
 from signorini.solvers.petsc.join import join
 from signorini.solvers.petsc.search import search
-from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult
-from signorini.solvers.select import accuracy_of, proved_status
-from signorini.solvers.solution import largest
-
-_NEARLY_CONSTANT = 2.0**-6  # as in `solvers.select`
-_STORED = 2.0 * EPS  # as in `solvers.solution.kkt_residual`
+from signorini.solvers.proof import accuracy_of, proved_status, violation
+from signorini.solvers.route_result import USELESS_ACCURACY
+from signorini.solvers.scaling import (
+    add_constant,
+    at_rest,
+    exponent_of,
+    resting_at,
+    solve_from_constant,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +89,7 @@ def _check_held(share):
     if share.held_somewhere:
         return
     load, size = share.total([share.b.sum(), np.abs(share.b).sum()])
-    if not share.lower.size or load >= -8.0 * EPS * size:
+    if not share.count or load >= -8.0 * EPS * size:
         raise SolverError(
             f"unbounded or nonunique: no dirichlet part, and the load sums to {load:.3e}; add a "
             "dirichlet part to the boundary, or a load that presses the body onto the obstacle"
@@ -94,13 +97,15 @@ def _check_held(share):
 
 
 def _solved(share):
-    exponent = _exponent(share)
-    scaled = _scaled(share, -exponent)
-    shifted, constant, result = _solve_shifted(scaled)
-    u, c, lower = result.u, shifted.contact, shifted.lower[shifted.places]
-    u[c] = np.where(result.active[shifted.places], lower, np.maximum(u[c], lower))
-    residual = kkt_residual(shifted, u)
-    accuracy = accuracy_of(result._replace(u=np.array(shifted.span(u))), constant)
+    maxima, contact = share.maxima, share.contact
+    exponent = exponent_of(share, maxima)
+    scaled = share.scaled(-exponent)
+    rest = _at_rest(scaled)
+    shifted, constant, (result,) = rest or solve_from_constant(scaled, _find, maxima=maxima)
+    u, binds = result.u, result.active[share.places]
+    u[contact] = np.where(binds, shifted.lower, np.maximum(u[contact], shifted.lower))
+    residual, _ = violation(shifted, u, maxima)
+    accuracy = accuracy_of(result, constant, maxima)
     status = proved_status(residual, accuracy, result)
     if status == "failed" or not accuracy <= USELESS_ACCURACY:
         raise SolverError(
@@ -108,12 +113,13 @@ def _solved(share):
             "try another solver.method"
         )
     multiplier = np.where(result.active, np.maximum(result.multiplier, 0.0), 0.0)
+    deviation, multiplier = np.ldexp(u, exponent), np.ldexp(multiplier, exponent)
     return SharedSolution(
-        u=np.ldexp(_unshifted(scaled, u, constant, result.active), exponent),
-        multiplier=np.ldexp(multiplier, exponent),
+        u=add_constant(share, deviation, np.ldexp(constant, exponent), binds),
+        multiplier=multiplier,
         active=result.active,
         undecided=result.undecided,
-        lower=share.lower,
+        lower=share.on_contact(share.lower),
         dofs=round(share.total([share.b.size - share.fixed.size])[0]),
         residual=residual,
         accuracy=accuracy,
@@ -125,111 +131,13 @@ def _solved(share):
     )
 
 
-def _exponent(share):
-    """The power of two that brings the data to order one."""
-    size = share.largest(np.concatenate([share.b, share.lower, share.fixed_values]))
-    return int(np.frexp(size)[1]) if size else 0
-
-
-def _scaled(share, exponent):
-    names = ("b", "lower", "fixed_values")
-    return share.with_data(**{name: np.ldexp(getattr(share, name), exponent) for name in names})
-
-
-def _solve_shifted(share):
-    """The problem counted from a constant, that constant, and the result."""
-    constant = _constant(share, share.fixed_values, share.lower)
-    far = _constant(share, share.fixed_values)
-    shifted = _shifted(share, constant)
-    rest = _constant_solution(share)
-    if rest is not None:
-        return share, 0.0, rest
-    result = search(shifted)
-    low, high = share.span(result.u)
-    varies = high - low > _NEARLY_CONSTANT * max(abs(low), abs(high))
-    if constant or varies or not far:
-        return shifted, constant, result
-    shifted = _shifted(share, far)
-    return shifted, far, search(shifted)
-
-
-def _constant(share, *near):
-    """A constant that u may be counted from; zero where that gains no digits."""
-    low, high = share.span(np.concatenate(near))
-    close = low <= high and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))
-    return low if close else 0.0
-
-
-def _shifted(share, constant):
-    if not constant:
-        return share
-    lower, fixed_values = share.lower - constant, share.fixed_values - constant
-    return share.with_data(lower=lower, fixed_values=fixed_values)
-
-
-def _unshifted(share, u, constant, active):
-    """u itself, given values taken over as they are."""
-    u = u + constant
-    binds = active[share.places]
-    u[share.fixed] = share.fixed_values
-    u[share.contact[binds]] = share.lower[share.places][binds]
-    return u
-
-
-def _constant_solution(share):
-    """The answer where a constant meets every condition exactly, None elsewhere."""
-    low, high = share.span(share.fixed_values)
-    load = share.b.copy()
-    load[share.fixed] = 0.0
-    if low != high or np.any(share.lower > low) or share.largest(load):
+def _at_rest(share):
+    """As `solve_from_constant`, where all of u is one constant; None elsewhere."""
+    value = resting_at(share, share.maxima)
+    if value is None:
         return None
-    touching, nothing = share.lower == low, np.zeros_like(share.lower)
-    return RouteResult(np.full_like(load, low), touching, 0, 0.0, nothing, 0.0, touching)
+    return share, 0.0, (at_rest(share.b, share.on_contact(share.lower), value),)
 
 
-def kkt_residual(share, u):
-    """Largest relative violation of the KKT conditions, as `solvers.kkt_residual`, by all.
-
-    Parameters
-    ----------
-    share : Share
-    u : ndarray, shape (m,)
-
-    Returns
-    -------
-    float
-        Dimensionless, the same on every process.
-    """
-    low, high = share.span(np.concatenate([u, share.fixed_values]))
-    scale = max(high, np.max(share.lower, initial=-np.inf)) - low
-    c, fixed = share.contact, share.fixed
-    r = share.residual_and_fluxes(u)[0]
-    size = np.abs(share.b) + share.A.diagonal() * scale
-    r[c] = r[fixed] = 0.0
-    imbalance = np.divide(r, size, out=np.zeros_like(r), where=size > 0.0)
-    scale = scale or 1.0
-    gap = (share.on_contact(u[c]) - share.lower) / scale
-    pressure, pull = _pressure(share, u)
-    worst = share.maxima(
-        [
-            largest(imbalance),
-            largest(np.maximum(pull, 0.0)),
-            largest(np.minimum(gap, 0.0)),
-            largest(np.minimum(np.maximum(gap, 0.0), np.maximum(pressure, 0.0))),
-            largest(u[fixed] - share.fixed_values) / scale,
-        ]
-    )
-    return max(worst) if np.isfinite(worst).all() else np.inf
-
-
-def _pressure(share, u):
-    """By how much, in units of F_c, each contact dof is certain to press and to pull."""
-    everywhere, load = share.with_ghosts(u), share.b[share.contact]
-    rows, nothing = share.A[share.contact], np.zeros(0)
-    less, fluxes = np.zeros((2, 0))
-    if load.size:
-        less, fluxes = residual_and_fluxes(rows, load, everywhere, share.contact, nothing)
-    force = share.on_contact(-less)
-    scale = np.max(share.on_contact(fluxes + np.abs(load)), initial=0.0) or 1.0
-    rounding = _STORED * share.on_contact(share.sizes @ np.abs(everywhere))
-    return (force - rounding) / scale, (-force - rounding) / scale
+def _find(share, guess):
+    return (search(share, guess),)

@@ -13,7 +13,7 @@ from signorini.rivals import RIVALS
 from signorini.rivals.worker import Worker
 from signorini.solvers import kkt_residual, solve
 from signorini.solvers.attempts import attempts
-from signorini.solvers.solution import status_of
+from signorini.solvers.proof import status_of
 from signorini.studies.benchmark.columns import TOLERANCE
 from signorini.studies.benchmark.point import difference, spread
 

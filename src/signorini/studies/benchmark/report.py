@@ -3,7 +3,7 @@
 from signorini.errors.norms import PAPER_NORMS
 from signorini.report.curves import stacked_shares
 from signorini.report.document import render
-from signorini.solvers.solution import INACCURATE, SOLVED
+from signorini.solvers.proof import INACCURATE, SOLVED
 from signorini.studies.benchmark.accuracy import finest
 from signorini.studies.benchmark.columns import COUNTS, SERIES, STAGES, TOLERANCE, series
 from signorini.studies.benchmark.routes import ROUGH, in_full

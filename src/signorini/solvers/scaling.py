@@ -1,0 +1,142 @@
+"""Problems brought to order one, and counted from a constant where that gains digits.
+
+As in `proof`, a problem is a whole one or the share of a process, and `maxima` is over all of them.
+"""
+
+import warnings
+
+import numpy as np
+
+from signorini.exceptions import SolverError
+from signorini.solvers.extremes import alone, largest, span
+from signorini.solvers.route_result import RouteResult
+
+_NEARLY_CONSTANT = 2.0**-6  # of their size: values that vary by less are counted from a constant
+
+
+def exponent_of(problem, maxima=alone):
+    """The power of two that brings the data to order one; exact, so results scale with the data bit
+    for bit.
+    """
+    sizes = [largest(values) for values in (problem.b, problem.lower, problem.fixed_values)]
+    size = max(maxima(sizes))
+    if 0.0 < size < np.finfo(float).tiny:
+        warnings.warn(
+            f"data as small as {size:.2e} have lost digits (subnormal numbers)", stacklevel=4
+        )
+    return int(np.frexp(size)[1]) if size else 0
+
+
+def resting_at(problem, maxima=alone):
+    """The constant that meets every condition exactly, None where none does.
+
+    A route would find the constant and its own rounding, which has no size to be measured by.
+
+    Parameters
+    ----------
+    problem : Problem or Share
+        Of one part, and whose constraint is from below.
+
+    Returns
+    -------
+    float or None
+    """
+    low, high = span(problem.fixed_values, maxima=maxima)
+    loads, known = np.count_nonzero(problem.b), np.count_nonzero(problem.b[problem.fixed])
+    loaded, obstacle = maxima([loads - known, np.max(problem.lower, initial=-np.inf)])
+    return None if low != high or obstacle > low or loaded else low
+
+
+def at_rest(b, obstacle, value):
+    """The result where all of u is one value.
+
+    Parameters
+    ----------
+    b : ndarray, shape (m,)
+        Of the dofs of the result.
+    obstacle : ndarray, shape (nc,)
+        At all contact dofs.
+    value : float
+
+    Returns
+    -------
+    RouteResult
+    """
+    touching, nothing = obstacle == value, np.zeros_like(obstacle)
+    return RouteResult(np.full_like(b, value), touching, 0, 0.0, nothing, 0.0, touching)
+
+
+def solve_from_constant(problem, find, guess=None, maxima=alone):
+    """Solve a problem counted from a constant, where that gains digits.
+
+    Where data do not show that all of the body stays near a constant, far from its obstacle, a
+    first solution does.
+
+    Parameters
+    ----------
+    problem : Problem or Share
+    find : callable
+        Of a problem and a guess, a tuple that starts with a `RouteResult`.
+    guess : ndarray of bool, shape (nc,), optional
+    maxima : callable, optional
+
+    Returns
+    -------
+    shifted : Problem or Share
+        What was solved.
+    constant : float
+        By how much its u is less.
+    found : tuple
+        What `find` found.
+    """
+    constant = _near(problem.fixed_values, problem.lower, maxima=maxima)
+    shifted = problem.shifted(constant)
+    far = _near(problem.fixed_values, maxima=maxima)
+    try:
+        found = find(shifted, guess)
+        varies = not _is_nearly_constant(*span(found[0].u, maxima=maxima))
+    except SolverError:
+        if constant or not far:
+            raise
+        varies = False
+    if constant or varies or not far:
+        return shifted, constant, found
+    shifted = problem.shifted(far)
+    return shifted, far, find(shifted, None)
+
+
+def _near(*parts, maxima):
+    """A constant that values may be counted from; zero where that gains no digits.
+
+    Every row of a stiffness matrix sums to zero, so a constant changes no force, but its rounding
+    would.
+    """
+    low, high = span(*parts, maxima=maxima)
+    return low if _is_nearly_constant(low, high) else 0.0
+
+
+def _is_nearly_constant(low, high):
+    return low <= high and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))
+
+
+def add_constant(problem, deviation, constant, active):
+    """u itself, given values taken over as they are; the same array where there is no constant.
+
+    Parameters
+    ----------
+    problem : Problem or Share
+    deviation : ndarray, shape (m,)
+        u - constant.
+    constant : float
+    active : ndarray of bool, shape (c,)
+        Whether each contact dof, or each own one of the share, binds.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+    """
+    if not constant:
+        return deviation
+    u = deviation + constant
+    u[problem.fixed], u[problem.contact[active]] = problem.fixed_values, problem.lower[active]
+    return u

@@ -1,6 +1,8 @@
 """Local contributions in the viewer: what triangles have in a guaranteed bound, as colours."""
 
 import base64
+import json
+import re
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from browser import CHROMIUM, MISSING, told_by
 from signorini import load_scene
 from signorini.api.solving import solve_levels
 from signorini.certificate.level import certified_level
+from signorini.commands.program import main
 from signorini.report.field import sums_on_coarser
 from signorini.report.viewer import viewer_data
 from signorini.report.viewer_page import viewer_page
@@ -76,7 +79,7 @@ const step = () => {
     hidden: at("colours").hidden, note: !at("local").hidden,
     mode: surface.intensitymode || "vertex",
     count: surface.intensity.length, high: Math.max(...surface.intensity), top: surface.cmax,
-    title: surface.colorbar.title.text, address: location.hash,
+    title: surface.colorbar.title.text, address: location.hash, light: surface.lighting,
   });
 };
 const level = (place) => {
@@ -110,6 +113,7 @@ def test_a_browser_colours_by_contributions_where_there_are_some(data, tmp_path)
         assert step["mode"] == "cell"
         assert step["count"] == shown[element].size
         assert step["high"] == step["top"] == pytest.approx(np.log10(shown[element].max()))
+        assert step["light"] == {"ambient": 1, "diffuse": 0, "specular": 0}  # colours as in the scale
     assert height["mode"] == without["mode"] == "vertex"
     assert height["title"] == "u"
     assert p1["address"].endswith("&colour=share")
@@ -119,7 +123,29 @@ def test_a_browser_colours_by_contributions_where_there_are_some(data, tmp_path)
 def test_without_certificates_there_is_no_choice(solutions, tmp_path):
     steps = """
     await until(() => document.body.dataset.shown);
-    told.steps.push(at("colours").hidden);
+    told.steps.push([at("colours").hidden, at("uncertified").hidden]);
     """
     told = told_by(viewer_page(viewer_data(SCENE, DOMAIN, solutions)), tmp_path, steps)
-    assert told["steps"] == [True]
+    assert told["steps"] == [[True, False]]  # and the page says how to get it
+
+
+def data_of(page):
+    content = re.search(r'<script id="content" type="application/json">(.*?)</script>', page, re.S)
+    return json.loads(content.group(1))
+
+
+def test_bounds_that_the_command_computes_are_those_of_a_build(level, tmp_path):
+    page = tmp_path / "viewer.html"
+    assert main(["viewer", "config/scenes/corner.yaml", "--certify", "-o", str(page)]) == 0
+    shown = {(one["element"], one["n"]): one for one in data_of(page.read_text())["solutions"]}
+    assert all(one["shares"] for one in shown.values())
+    for row in level.rows():
+        low, high = map(float, shown[row["element"], 8]["certificate"])
+        assert low <= row["lower"] <= row["upper"] <= high
+        assert high - low < 1.01 * (row["upper"] - row["lower"]) + 1e-3 * high
+
+
+def test_a_curved_body_is_not_certified(tmp_path, capsys):
+    words = ["viewer", "config/scenes/annulus.yaml", "--certify", "-o", str(tmp_path / "v.html")]
+    assert main(words) == 1
+    assert "--certify: the triangles do not fill" in capsys.readouterr().err

@@ -7,7 +7,7 @@ import pytest
 import signorini
 from scene_texts import VALID, changed
 from signorini.exceptions import SceneError
-from signorini.scene.checks import is_certified
+from signorini.scene.certified import is_certified
 from signorini.scene.read import read_scene
 
 TRUTH = "truth: {kind: reference, element: P1, n: 32}"

@@ -3,7 +3,7 @@
 from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.publication.check import check_publication
-from signorini.scene.checks import is_certified
+from signorini.scene.certified import is_certifiable, is_certified
 from signorini.scene.read import check_name, check_points, read_scene, scene_of_point
 from signorini.scene.validated import keep_validated
 from signorini.wording import listed
@@ -275,9 +275,7 @@ def details_certificate(wildcards, input):
 
 def certifiable_scenes():
     """Every scene of which guaranteed bounds can be had: the triangles fill its body."""
-    return [
-        name for name in known_scenes() if not scene(name).document["domain"].get("boundary_shape")
-    ]
+    return [name for name in known_scenes() if is_certifiable(scene(name).document)]
 
 
 def drawn_norms(document):

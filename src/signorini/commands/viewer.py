@@ -2,21 +2,25 @@
 
 The solutions are those of a build, and beside them its errors.csv, certificates.csv and the local
 contributions of its certificates where it has them. Without --results the scene is solved here, and
-these are left out.
+these are left out. With --certify the bounds are computed here, so that surfaces can be coloured by
+what each triangle contributes to them.
 
 example:
   signorini viewer config/scenes/punch.yaml --results results/punch -o viewer.html
+  signorini viewer config/scenes/punch.yaml --certify -o viewer.html
 """
 
 from pathlib import Path
 
-from signorini.api.solving import solve_levels
-from signorini.certificate.level import read_level
+from signorini.api.solving import solve_level, solve_levels
+from signorini.certificate.level import certified_level, read_level
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.exceptions import SceneError
+from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.report.viewer import viewer_data
 from signorini.report.viewer_page import viewer_page
+from signorini.scene.certified import check_certifiable
 from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
 from signorini.storage import read_csv, write_text
@@ -31,6 +35,11 @@ def add_arguments(parser):
     parser.add_argument(
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
+    parser.add_argument(
+        "--certify",
+        action="store_true",
+        help="compute guaranteed bounds here, as `certificate: true` in the scene does",
+    )
     add_output(parser, "the page, .html")
 
 
@@ -40,18 +49,20 @@ def run(arguments):
     Raises
     ------
     SceneError
-        If a solution of the scene is not in the folder.
+        If a solution of the scene is not in the folder, or nothing of it can be certified.
     """
     scene, folder = scene_of(arguments.scene), arguments.results
     with naming(scene.source):
-        data = viewer_data(
-            scene,
-            domain_of(scene, arguments.mesh),
-            _solutions(scene, folder),
-            _table(folder, "errors.csv"),
-            _table(folder, "certificates.csv"),
-            _contributions(scene, folder),
-        )
+        domain, solutions = domain_of(scene, arguments.mesh), _solutions(scene, folder)
+        if arguments.certify:
+            check_certifiable(scene.document, "--certify")
+            solutions = list(solutions)
+            levels = _certified(scene, domain, solutions)
+            bounds = [row for level in levels for row in level.rows()]
+        else:
+            levels, bounds = _stored(scene, folder), _table(folder, "certificates.csv")
+        errors = _table(folder, "errors.csv")
+        data = viewer_data(scene, domain, solutions, errors, bounds, _contributions(levels))
     page = viewer_page(data)
     write_text(arguments.output, page)
     megabytes = len(page.encode()) / 1e6
@@ -81,12 +92,37 @@ def _table(folder, name):
     return read_csv(folder / name) if folder and (folder / name).is_file() else ()
 
 
-def _contributions(scene, folder):
-    """What each triangle contributes to the bounds of a build, where it has certificates."""
+def _stored(scene, folder):
+    """The certificates of a build, where it has some."""
     if folder is None:
-        return {}
+        return []
     files = [folder / "certificates" / f"n{n}.npz" for n in scene.levels]
-    levels = [read_level(file) for file in files if file.is_file()]
+    return [read_level(file) for file in files if file.is_file()]
+
+
+def _certified(scene, domain, solutions):
+    """The certificates of all levels; the element that a scene leaves out is solved here."""
+    return [
+        certified_level(
+            scene.problem_statement,
+            domain.level(n),
+            _pair(scene, n, solutions),
+            n=n,
+            h=domain.mesh_size(n),
+            method=scene.document["solver"]["method"],
+            elements=scene.elements,
+        )
+        for n in scene.levels
+    ]
+
+
+def _pair(scene, n, solutions):
+    given = {solution.element: solution for solution in solutions if solution.n == n}
+    return {name: given.get(name) or solve_level(scene, name, n) for name in ELEMENT_NAMES}
+
+
+def _contributions(levels):
+    """What each triangle has in the square of a bound, by element and n."""
     return {
         (element, level.n): level.of_triangles(element)["contribution"]
         for level in levels

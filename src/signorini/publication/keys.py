@@ -9,7 +9,7 @@ import difflib
 
 from signorini.errors.rates import KINDS
 from signorini.mesh.boundary import labels_of
-from signorini.scene.checks import is_certified
+from signorini.scene.certified import is_certified
 from signorini.scene.table import computed_norms
 from signorini.wording import cut
 

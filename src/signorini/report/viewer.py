@@ -13,6 +13,7 @@ from signorini.errors.norms import NORMS
 from signorini.fem.contact_line import contact_rows, critical_places
 from signorini.fem.element_facts import ELEMENT_FACTS
 from signorini.report.field import field_of, sums_on_coarser
+from signorini.scene.certified import is_certifiable
 from signorini.solvers.stored import mesh_of
 
 MOST_TRIANGLES = 4096  # of a surface, where the mesh has coarser ones
@@ -42,7 +43,8 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=(), contributi
     -------
     dict
         Lists, dicts, text and numbers: ``name``, ``title``, ``elements`` (name -> label),
-        ``levels``, ``norms`` (name -> label), ``meshes`` and ``solutions``, see `_shown`.
+        ``levels``, ``norms`` (name -> label), ``certifiable``, ``meshes`` and ``solutions``, see
+        `_shown`.
 
     Examples
     --------
@@ -72,6 +74,7 @@ def viewer_data(scene, domain, solutions, errors=(), certificates=(), contributi
         "elements": {element: ELEMENT_FACTS[element].label for element in scene.elements},
         "levels": sorted({solution["n"] for solution in shown}),
         "norms": {norm: NORMS[norm].text for norm in norms},
+        "certifiable": is_certifiable(scene.document),
         "meshes": [mesh for _, mesh in meshes.values()],
         "solutions": shown,
     }

@@ -9,6 +9,7 @@ from signorini.exceptions import SceneError
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
 from signorini.mesh.cell_counts import count_cells
+from signorini.scene.certified import check_certifiable, is_certified
 from signorini.scene.quantities import check_quantities
 from signorini.scene.shape_checks import check_shapes, refuse_shapes
 from signorini.scene.table import check_table
@@ -69,20 +70,6 @@ def check_critical_points(document, exact):
     else:
         remedy = f"list them in truth.critical_points, [[x, y], ...], or {remedy}"
     raise SceneError(f"norms: critical_points needs the exact ones; {remedy}")
-
-
-def is_certified(document):
-    """Whether a scene asks for guaranteed bounds.
-
-    Parameters
-    ----------
-    document : dict
-
-    Returns
-    -------
-    bool
-    """
-    return document["truth"]["kind"] == "certificate" or document["certificate"]
 
 
 def _check_rectangle(domain):
@@ -306,11 +293,7 @@ def _check_certified(document):
     if not is_certified(document):
         return
     field = "truth.kind" if document["truth"]["kind"] == "certificate" else "certificate"
-    if document["domain"].get("boundary_shape"):
-        raise SceneError(
-            f"{field}: the triangles do not fill a body with domain.boundary_shape, so that "
-            "nothing of it is certified; drop one of the two"
-        )
+    check_certifiable(document, field)
     if field == "truth.kind" and "expect" in document:
         raise SceneError(
             "expect: needs errors, which truth.kind certificate does not compute; drop it"

@@ -113,7 +113,7 @@ def test_a_browser_colours_by_contributions_where_there_are_some(data, tmp_path)
         assert step["mode"] == "cell"
         assert step["count"] == shown[element].size
         assert step["high"] == step["top"] == pytest.approx(np.log10(shown[element].max()))
-        assert step["light"] == {"ambient": 1, "diffuse": 0, "specular": 0}  # colours as in the scale
+        assert step["light"] == {"ambient": 1, "diffuse": 0, "specular": 0}
     assert height["mode"] == without["mode"] == "vertex"
     assert height["title"] == "u"
     assert p1["address"].endswith("&colour=share")

@@ -1,7 +1,7 @@
 """Solutions of a scene, computed on the spot."""
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from signorini.scene.scene import Scene
@@ -46,3 +46,35 @@ def solve_levels(scene: Scene) -> Iterator[Any]:
     for element in scene.elements:
         for n in scene.levels:
             yield solve_level(scene, element, n)
+
+
+def certify_levels(scene: Scene, solutions: Iterable[Any]) -> list[Any]:
+    """Guaranteed bounds on all levels of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    solutions : iterable of StoredSolution
+        Of its elements and levels; what a bound needs besides is solved here.
+
+    Returns
+    -------
+    list of Level
+
+    Raises
+    ------
+    SolverError
+        If a solution is of status inaccurate.
+    """
+    from signorini.certificate.level import certified_level
+    from signorini.fem.element_facts import ELEMENT_NAMES
+
+    domain, method = scene.problem_statement.triangulations, scene.document["solver"]["method"]
+    given = {(solution.element, solution.n): solution for solution in solutions}
+    found = []
+    for n in scene.levels:
+        pair = {name: given.get((name, n)) or solve_level(scene, name, n) for name in ELEMENT_NAMES}
+        _log.info("n = %d: certifying", n)
+        options = {"n": n, "h": domain.mesh_size(n), "method": method, "elements": scene.elements}
+        found.append(certified_level(scene.problem_statement, domain.level(n), pair, **options))
+    return found

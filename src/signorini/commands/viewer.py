@@ -12,12 +12,11 @@ example:
 
 from pathlib import Path
 
-from signorini.api.solving import solve_level, solve_levels
-from signorini.certificate.level import certified_level, read_level
+from signorini.api.solving import certify_levels, solve_levels
+from signorini.certificate.level import read_level
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.exceptions import SceneError
-from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.report.viewer import viewer_data
 from signorini.report.viewer_page import viewer_page
 from signorini.scene.certified import check_certifiable
@@ -57,7 +56,7 @@ def run(arguments):
         if arguments.certify:
             check_certifiable(scene.document, "--certify")
             solutions = list(solutions)
-            levels = _certified(scene, domain, solutions)
+            levels = certify_levels(scene, solutions)
             bounds = [row for level in levels for row in level.rows()]
         else:
             levels, bounds = _stored(scene, folder), _table(folder, "certificates.csv")
@@ -98,27 +97,6 @@ def _stored(scene, folder):
         return []
     files = [folder / "certificates" / f"n{n}.npz" for n in scene.levels]
     return [read_level(file) for file in files if file.is_file()]
-
-
-def _certified(scene, domain, solutions):
-    """The certificates of all levels; the element that a scene leaves out is solved here."""
-    return [
-        certified_level(
-            scene.problem_statement,
-            domain.level(n),
-            _pair(scene, n, solutions),
-            n=n,
-            h=domain.mesh_size(n),
-            method=scene.document["solver"]["method"],
-            elements=scene.elements,
-        )
-        for n in scene.levels
-    ]
-
-
-def _pair(scene, n, solutions):
-    given = {solution.element: solution for solution in solutions if solution.n == n}
-    return {name: given.get(name) or solve_level(scene, name, n) for name in ELEMENT_NAMES}
 
 
 def _contributions(levels):

@@ -47,7 +47,7 @@ def test_the_same_level_gives_the_same_bytes(capsys, tmp_path):
 
 
 def test_certify_goes_as_far_as_it_must(capsys):
-    code, out, _ = call(capsys, "certify", CORNER, "--to", "0.05", "--json")
+    code, out, _ = call(capsys, "certify", CORNER, "--bound", "0.05", "--json")
     assert code == 0
     rows = json.loads(out)
     bounds = {(row["element"], row["n"]): row["upper"] for row in rows}
@@ -68,17 +68,19 @@ def test_certify_says_why_it_cannot(capsys, monkeypatch):
     from signorini import memory
 
     monkeypatch.setattr(memory, "_memory", lambda: 1e6)
-    code, _, err = call(capsys, "certify", SHAPE, "--to", "1e-3")
+    code, _, err = call(capsys, "certify", SHAPE, "--bound", "1e-3")
     assert code == 1
     assert re.search(
-        r"--to 0.001: the bound of \w+ is 0\.\d+ at n = \d+ and would be there at about n = \d+; "
-        r".* needs at least .* GB of memory",
+        r"--bound 0.001: the bound of \w+ is 0\.\d+ at n = \d+ "
+        r"and would be there at about n = \d+; .* needs at least .* GB of memory",
         err,
     )
 
 
+@pytest.mark.parametrize("option", ["--bound", "--to"])
 @pytest.mark.parametrize("goal", ["0", "-1", "nan"])
-def test_a_goal_is_positive(capsys, goal):
-    code, _, err = call(capsys, "certify", CORNER, f"--to={goal}")
+def test_a_goal_is_positive(capsys, goal, option):
+    """By its name of before, too."""
+    code, _, err = call(capsys, "certify", CORNER, f"{option}={goal}")
     assert code == 1
-    assert "a bound is positive" in err
+    assert f"--bound {float(goal):g}: a bound is positive" in err

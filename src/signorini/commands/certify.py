@@ -4,10 +4,11 @@ The bound is that of the energy error against the continuous problem. Every leve
 as the one before. Where the goal cannot be met on this machine, the command fails and says why.
 
 example:
-  signorini certify config/scenes/corner.yaml --element CR --to 1e-2
+  signorini certify config/scenes/corner.yaml --element CR --bound 1e-2
 """
 
 import logging
+from argparse import SUPPRESS
 from functools import partial
 
 from signorini.api.solving import solve_level
@@ -31,20 +32,18 @@ def add_arguments(parser):
     )
     parser.add_argument("--n", type=int, help="the first level; by default the scene's coarsest")
     parser.add_argument(
-        "--to",
-        type=float,
-        metavar="BOUND",
-        help="the bound at which to end, unit of the energy norm; not given: after the first level",
+        "--bound", type=float, help="energy error at which to end; not given: after the first level"
     )
+    parser.add_argument("--to", dest="bound", type=float, help=SUPPRESS)  # its name in 0.2.0
 
 
 def run(arguments):
     """Certify level after level, and tell what each cost."""
     scene = scene_of(arguments.scene)
     elements = [arguments.element] if arguments.element else scene.elements
-    goal = arguments.to if arguments.to is not None else float("inf")
+    goal = arguments.bound if arguments.bound is not None else float("inf")
     if not goal > 0.0:
-        raise SceneError(f"--to {goal:g}: a bound is positive, for instance 1e-3")
+        raise SceneError(f"--bound {goal:g}: a bound is positive, for instance 1e-3")
     if arguments.n is not None:
         check_n(arguments.n)
     steps = []
@@ -57,7 +56,7 @@ def run(arguments):
         except MeshError as error:
             if not steps:
                 raise
-            raise MeshError(f"--to {goal:g}: {_why(steps, elements, goal)}; {error}") from None
+            raise MeshError(f"--bound {goal:g}: {_why(steps, elements, goal)}; {error}") from None
     lines = [_told(step, elements) for step in steps]
     rows = [row | {"seconds": step.seconds} for step in steps for row in step.level.rows()]
     return Outcome("\n".join(lines), rows)

@@ -1,6 +1,7 @@
 """Validate a scene: all that can be checked before any work.
 
-A mistake is told in one line with the file, the field, the value and the remedy. With --output the
+A mistake is told in one line with the file, the field, the value and the remedy. The data are
+evaluated on the coarsest mesh, so that values which are not finite are seen. With --output the
 validated scene is written as JSON, every default filled in; the other commands read that file as
 well, and do not validate it again.
 
@@ -13,6 +14,7 @@ from signorini.commands.inputs import add_output, check_there
 from signorini.publication.check import check_publication
 from signorini.scene.read import check_points, read_scene
 from signorini.scene.validated import write_validated
+from signorini.scene.values_check import check_values
 
 
 def add_arguments(parser):
@@ -26,6 +28,7 @@ def run(arguments):
     check_there(arguments.scene)
     scene = read_scene(arguments.scene)
     scene.check()
+    check_values(scene)
     check_points(scene)
     check_publication(scene)
     if arguments.output:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from project import ROOT, Project
@@ -24,7 +25,7 @@ pytestmark = [
         reason="pip install snakemake-executor-plugin-slurm",
     ),
     pytest.mark.skipif(
-        " " in sys.executable, reason="the plugin for Slurm does not quote the path of Python"
+        " " in sys.executable, reason="jobs on a cluster cannot start a Python in such a path"
     ),
     pytest.mark.skipif(os.geteuid() != 0, reason="a node of Slurm is started by root"),
     pytest.mark.skipif(
@@ -33,7 +34,7 @@ pytestmark = [
 ]
 
 # This Slurm keeps no accounts; and it is looked at more often than a cluster wants to be.
-HERE = ["--slurm-status-command", "squeue", "--slurm-no-account"]
+HERE = ["--slurm-status-command", "squeue"]
 SOON = ["--slurm-init-seconds-before-status-checks", "1", "--seconds-between-status-checks", "1"]
 CLUSTER = ["--workflow-profile", "profiles/slurm", *HERE]
 
@@ -48,13 +49,29 @@ def slurm(tmp_path):
         subprocess.run([ROOT / "tests/slurm/stop", folder], check=True)
 
 
-def test_jobs_run_on_a_cluster(fresh, slurm):
+def test_jobs_run_on_a_cluster_and_the_folder_may_have_any_name(tmp_path, slurm):
     """A mesh and a solve, and a job of the benchmark, which has the node for itself."""
+    project = Project.fresh(tmp_path / "somebody's project")
     targets = ["results/small/solutions/P1/n2.npz", "results/studies/benchmark/machine.json"]
-    run = fresh.build(*CLUSTER, *SOON, "--", *targets, cores=None)
+    run = project.build(*CLUSTER, *SOON, "--", *targets, cores=None)
     assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
     assert run.text.count("has been submitted with SLURM jobid") == 3
-    assert all((fresh / target).is_file() for target in targets)
+    assert all((project / target).is_file() for target in targets)
+
+
+def test_a_python_that_no_job_could_start_is_refused_before_any_is_submitted(
+    fresh, slurm, tmp_path, monkeypatch
+):
+    """Whatever the executor, as it names Python without quotes; the remedy is a link."""
+    environment = tmp_path / "some environment"
+    environment.symlink_to(Path(sys.executable).parents[1])
+    monkeypatch.setattr(sys, "executable", str(environment / "bin" / Path(sys.executable).name))
+    run = fresh.run(*CLUSTER, "--", "results/small/solutions/P1/n2.npz", cores=None)
+    assert run.code == 1
+    (line,) = run.errors
+    assert f"{sys.executable}: jobs on a cluster cannot start a Python" in line
+    assert f"path holds ' '; give its environment another path, ln -s '{environment}'" in line
+    assert "has been submitted" not in run.text
 
 
 SWEEP = """\

@@ -2,6 +2,7 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -26,6 +27,8 @@ sys.path.insert(0, str(LIBRARY))
 for variable, folder in {"PATH": Path(sys.executable).parent, "PYTHONPATH": LIBRARY}.items():
     others = os.environ.get(variable, os.defpath if variable == "PATH" else "")
     os.environ[variable] = os.pathsep.join(filter(None, [str(folder), others]))
+
+from snakemake.settings.types import SharedFSUsage
 
 from signorini.commands.sources import modules_from, sources
 from signorini.errors.norms import RATED
@@ -87,6 +90,21 @@ def check_results():
             raise SignoriniError(
                 f"{folder}: not a folder that can be written; make it one, or move it away"
             )
+
+
+def check_python():
+    """Refuse to submit jobs that could not start: an executor puts the path of Python into a shell's line as it is."""
+    python = Path(sys.executable)
+    if SharedFSUsage.SOFTWARE_DEPLOYMENT not in workflow.storage_settings.shared_fs_usage:
+        return  # then a job starts the `python` of its own machine
+    special = re.search(r"[^\w@%+=:,./-]", str(python))
+    if special:
+        environment = quote(str(python.parents[1]))
+        sys.exit(
+            f"error: {python}: jobs on a cluster cannot start a Python whose path holds {special[0]!r}; give its"
+            f" environment another path, ln -s {environment} ~/signorini-venv, and start"
+            " ~/signorini-venv/bin/python -m snakemake with the same options"
+        )
 
 
 def library(command, **known):

@@ -29,6 +29,14 @@ def test_the_error_is_marked_where_it_is_known():
     assert legend(axes.figure) == ["CF (P1)", "NCF (CR)"]
 
 
+def test_bands_are_told_apart_in_grey_and_the_axis_has_two_numbers():
+    axes = draw_certificates(ROWS).axes[0]
+    edges = {line.get_linestyle() for line in axes.lines if line.get_linestyle() != "None"}
+    assert edges == {"-", "--"}
+    low, high = axes.get_ylim()
+    assert low <= 0.1 < 1.0 <= high or low <= 0.01 < 0.1 <= high
+
+
 def test_a_lower_bound_of_zero_has_no_place():
     rows = [row | {"lower": 0.0} for row in ROWS]
     draw_certificates(rows).canvas.draw()

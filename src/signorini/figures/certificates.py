@@ -3,7 +3,7 @@
 import matplotlib
 
 from signorini.fem.element_facts import ELEMENT_FACTS
-from signorini.figures.convergence import label_levels
+from signorini.figures.convergence import label_levels, with_two_decades
 from signorini.figures.elements import elements_in
 from signorini.figures.style import ELEMENT_STYLES, STYLE, TEXT_WIDTH, new_figure
 
@@ -35,6 +35,7 @@ def draw_certificates(rows):
     axes = figure.add_axes((0.205, 0.16, 0.775, 0.805), xscale="log", yscale="log")
     for element in elements_in(rows):
         _draw(axes, element, [row for row in rows if row["element"] == element])
+    axes.set_ylim(*with_two_decades(*axes.get_ylim()))
     label_levels(axes, {int(row["n"]): float(row["h"]) for row in rows})
     axes.set(xlabel="mesh width $h$", ylabel="energy error, guaranteed")
     axes.legend(loc="upper left", handlelength=2.6, borderaxespad=0.2)
@@ -46,10 +47,10 @@ def _draw(axes, element, rows):
     style, h = ELEMENT_STYLES[element], [float(row["h"]) for row in rows]
     upper = [float(row["upper"]) for row in rows]
     lower = [_positive(row, "lower") for row in rows]
-    color = style["color"]
-    axes.fill_between(h, lower, upper, color=color, alpha=0.25, linewidth=0)
-    axes.plot(h, upper, color=color, linewidth=0.6, label=ELEMENT_FACTS[element].label)
-    axes.plot(h, lower, color=color, linewidth=0.6)
+    edge = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 0.9}
+    axes.fill_between(h, lower, upper, color=style["color"], alpha=0.18, linewidth=0)
+    axes.plot(h, upper, label=ELEMENT_FACTS[element].label, **edge)
+    axes.plot(h, lower, **edge)
     known = [(width, _positive(row, "error")) for width, row in zip(h, rows, strict=True)]
     known = [(width, error) for width, error in known if error == error]
     if known:

@@ -9,9 +9,26 @@ from docutils.utils.math.latex2mathml import tex2mathml
 TAG = re.compile(r"\\tag\{(.*?)\}")  # MathML has none
 DOTS = re.compile(r"\\dots\b")  # unknown to docutils, which knows \ldots
 
-TIGHT = re.compile(r'<mo(?: stretchy="false")?>([|‖/])</mo>')  # no stretch over indices, no space
-FUNCTION = re.compile(r"(<mi>(?:log|sin|cos)</mi>)")
 SPACE = '<mspace width="0.17em"/>'
+OPERAND = r"</m(?:i|n|sub|sup|subsup|row|over)>\s*"
+NAME = "<mi>(?:log|sin|cos|cot)</mi>"
+RELATION = "<mo>(?:&lt;|&gt;|[=≤≥,])</mo>"
+# What TeX does by itself, as replacements in MathML.
+FINISH = {
+    # bars do not stretch over indices, and have no space around them
+    r'<mo(?: stretchy="false"| class="mathopen")?>([|‖/])</mo>': (
+        r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>'
+    ),
+    "<mo>'</mo>": '<mo lspace="0" rspace="0">′</mo>',
+    # a sign after a relation is no difference
+    rf"({RELATION}\s*)<mo>−</mo>": r'\1<mo form="prefix">−</mo>',
+    r"<mo(| movablelimits=\"true\")>(max|min|sup|inf)</mo>": (
+        r'<mo\1 lspace="0.1em" rspace="0.17em">\2</mo>'
+    ),
+    # names of functions are set off from what stands before and after
+    rf"({OPERAND})({NAME})": rf"\1{SPACE}\2",
+    rf"({NAME})": rf"\1{SPACE}",
+}
 
 
 def setup(app):
@@ -45,5 +62,6 @@ def in_environment(text):
 def mathml(text, as_block=False):
     """A formula in LaTeX as MathML."""
     found = tex2mathml(DOTS.sub(r"\\ldots", text), as_block=as_block)
-    found = TIGHT.sub(r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>', found)
-    return FUNCTION.sub(rf"\1{SPACE}", found)
+    for pattern, replacement in FINISH.items():
+        found = re.sub(pattern, replacement, found)
+    return found

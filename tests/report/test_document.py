@@ -123,9 +123,11 @@ def test_a_clock_rate_is_no_reference(layout):
         ("2e-14 & -3 %", r"$2\times10^{-14}$ \& $-$3\,\%"),
         ("≤2, <0.1, 5 × 3", r"$\le$2, $<$0.1, 5 $\times$ 3"),
         ("1e+06, l-shape, 2026-11-22", "$10^{6}$, l-shape, 2026-11-22"),
+        ("of $a_1 - 2$ and", "of $a_1 - 2$ and"),
+        ("$$a_1 - 2$$", r"\[a_1 - 2\]"),
     ],
 )
-def test_numbers_in_latex(plain, typeset):
+def test_numbers_and_mathematics_in_latex(plain, typeset):
     assert latex_text(plain) == typeset
 
 

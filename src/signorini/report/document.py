@@ -8,6 +8,8 @@ A page is a Jinja2 template in a light markup::
     A paragraph with $mathematics$, `code`, *emphasis*, a [link](file.csv), a number
     {{ found.seconds|seconds }}, and a reference to @name.
 
+    $$displayed mathematics$$
+
     {% call figure("name") %} The caption of the files name.pdf and name.png. {% endcall %}
 
     {% call table("name") %}
@@ -41,7 +43,7 @@ LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2
 _LIBRARY = Path(__file__).parents[1]
 _SYMBOLS = {"≤": r"$\le$", "×": r"$\times$", "<": "$<$", ">": "$>$", r" \%": r"\,\%"}
 _PIPE = re.compile(r"(?<!\\)\|")
-_VERBATIM = re.compile(r"(\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
+_VERBATIM = re.compile(r"(\$\$[^$]*\$\$|\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
 
 
 @dataclass(frozen=True)
@@ -239,6 +241,8 @@ def latex_text(text, known=None):
     for k, part in enumerate(parts[1::2]):
         if part.startswith("`"):
             parts[2 * k + 1] = rf"\texttt{{{part[1:-1].translate(str.maketrans(ESCAPES))}}}"
+        elif part.startswith("$$"):
+            parts[2 * k + 1] = rf"\[{part[2:-2]}\]"
         elif part.startswith("@"):
             parts[2 * k + 1] = rf"\autoref{{{known[part[1:]].kind}:{part[1:]}}}"
     return "".join(parts)

@@ -25,9 +25,9 @@ FINISH = {
     r"<mo(| movablelimits=\"true\")>(max|min|sup|inf)</mo>": (
         r'<mo\1 lspace="0.1em" rspace="0.17em">\2</mo>'
     ),
-    # names of functions are set off from what stands before and after
-    rf"({OPERAND})({NAME})": rf"\1{SPACE}\2",
-    rf"({NAME})": rf"\1{SPACE}",
+    # names of functions are set off from what stands before and, without a power, after
+    rf"({OPERAND})((?:<msup>\s*)?{NAME})": rf"\1{SPACE}\2",
+    rf"({NAME})(?=\s*<mo>&ApplyFunction;)": rf"\1{SPACE}",
 }
 
 
@@ -38,8 +38,8 @@ def setup(app):
 
 
 def inline(writer, node):
-    """A formula within a line."""
-    writer.body.append(mathml(node.astext()))
+    """A formula within a line; a mark after it stays on that line."""
+    writer.body.append(mathml(node.astext()) + "&#8288;")
     raise nodes.SkipNode
 
 

@@ -117,6 +117,7 @@ def test_what_such_a_host_would_change_is_told(formula):
         ("a < -1", '<mo form="prefix">−</mo>'),
         ("a - 1", "<mo>−</mo>"),
         (r"n \log n", '</mi><mspace width="0.17em"/><mi>log</mi>'),
+        (r"\sin^2 x", "<msup><mi>sin</mi><mn>2</mn></msup>"),
     ],
 )
 def test_formulas_are_spaced_as_tex_does(formula, part, mathml):

@@ -50,6 +50,9 @@ TRIED = {
     r"snakemake .*--workflow-profile profiles/slurm": lambda command: (
         f"{command} --dry-run" if SLURM else "true"
     ),
+    r"snakemake .*--workflow-profile profiles/cluster-generic.*": lambda command: (
+        f"{command} --dry-run --cluster-generic-submit-cmd true" if GENERIC else "true"
+    ),
     r"signorini new (.*)": lambda command: (
         f"rm -f config/scenes/{command.split()[2]}.yaml paper/{command.split()[2]}.tex;"
         f" PYTHONPATH=src python3 -m {command}"
@@ -74,6 +77,7 @@ TRIED = {
     r"python (benchmarks|docs)/(.*)": lambda command: f"{command.partition('.py')[0]}.py --help",
 }
 SLURM = find_spec("snakemake_executor_plugin_slurm")  # and test_slurm runs it
+GENERIC = find_spec("snakemake_executor_plugin_cluster_generic")  # and test_cluster runs it
 
 
 def lines(block):

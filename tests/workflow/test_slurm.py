@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 from project import ROOT, Project
@@ -57,21 +56,6 @@ def test_jobs_run_on_a_cluster_and_the_folder_may_have_any_name(tmp_path, slurm)
     assert run.jobs == {"mesh": 1, "solve": 1, "benchmark_machine": 1}
     assert run.text.count("has been submitted with SLURM jobid") == 3
     assert all((project / target).is_file() for target in targets)
-
-
-def test_a_python_that_no_job_could_start_is_refused_before_any_is_submitted(
-    fresh, slurm, tmp_path, monkeypatch
-):
-    """Whatever the executor, as it names Python without quotes; the remedy is a link."""
-    environment = tmp_path / "some environment"
-    environment.symlink_to(Path(sys.executable).parents[1])
-    monkeypatch.setattr(sys, "executable", str(environment / "bin" / Path(sys.executable).name))
-    run = fresh.run(*CLUSTER, "--", "results/small/solutions/P1/n2.npz", cores=None)
-    assert run.code == 1
-    (line,) = run.errors
-    assert f"{sys.executable}: jobs on a cluster cannot start a Python" in line
-    assert f"path holds ' '; give its environment another path, ln -s '{environment}'" in line
-    assert "has been submitted" not in run.text
 
 
 SWEEP = """\

@@ -167,6 +167,43 @@ def test_many_neighbouring_critical_points_are_one_interval():
         assert (band.get_x(), band.get_width()) == pytest.approx((6.5 / 32, 8 / 32))
 
 
+def touching_rows(n=32):
+    """Contact with force before 0.3; the exact solution is on the obstacle up to 0.7."""
+    rows = [row | {"exact": row["obstacle"]} for row in sloping_rows(n=n)]
+    for row in rows:
+        row["flux"] = 1.0 if row["s"] < 0.3 else 0.0
+        row["exact"] += max(row["s"] - 0.7, 0.0)
+    return rows
+
+
+def test_contact_without_force_is_an_interval():
+    figure = draw_contact_line(touching_rows())
+    assert "contact without force" in legend(figure)
+    for axes in figure.axes:
+        (band,) = axes.patches
+        assert band.get_x() == pytest.approx(0.3, abs=1 / 32)
+        assert band.get_x() + band.get_width() == pytest.approx(0.7, abs=1 / 32)
+
+
+def test_contact_with_force_and_a_gap_are_no_such_interval():
+    pressed = [row | {"flux": 1.0} for row in touching_rows()]
+    apart = [row | {"exact": row["obstacle"] + 1e-6} for row in touching_rows()]
+    for rows in (pressed, apart):
+        assert not any(axes.patches for axes in draw_contact_line(rows).axes)
+
+
+def test_a_legend_of_two_rows_is_below_all_labels():
+    figure = draw_contact_line(touching_rows())
+    pixels(figure)
+    lowest = min(axes.get_tightbbox().y0 for axes in figure.axes)
+    (key,) = figure.legends
+    box = key.get_window_extent()
+    texts = [text.get_window_extent() for text in key.texts]
+    assert max(text.y0 for text in texts) > max(text.y1 for text in texts[1:2])  # two rows
+    assert 0 <= box.y0 < box.y1 < lowest
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.width
+
+
 @pytest.mark.parametrize("height", [1e-4, 0.00123456, 1.0])
 def test_no_tick_label_is_cut_off(height):
     figure = draw_contact_line(sloping_rows(height=height))

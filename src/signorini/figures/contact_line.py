@@ -23,6 +23,7 @@ from signorini.report.contact_side import (
     differences,
     finest_lines,
     resultants,
+    touching_intervals,
 )
 
 MOST_MARKERS = 24  # on a line
@@ -36,7 +37,10 @@ LEFT, LETTER = 0.046, 0.0115  # of the panels without tick labels, and for each 
 # Height of the figure, and bottom and height of each panel: u, difference, force.
 TWO = 0.62, {"u": (0.57, 0.36), "force": (0.2, 0.28)}
 THREE = 0.8, {"u": (0.66, 0.285), "difference": (0.45, 0.13), "force": (0.155, 0.217)}
+IN_A_ROW = 4  # entries of the legend
+SECOND_ROW = 0.17  # inches
 THRESHOLD = {"linestyle": (0, (1, 1.5))}
+TOUCHING = "contact without force"  # the exact solution's
 FORCE = r"contact force $k\,\mathrm{d}u/\mathrm{d}\nu$"
 
 
@@ -77,19 +81,38 @@ def draw_contact_line(rows):
         exponent = _draw_differences(panels["difference"], lines, hidden)
         units["difference"] = units["u"] + exponent
     _draw_critical_points(panels, lines)
+    _draw_touching(panels, next(iter(lines.values())))
     _draw_ends(panels.values(), next(iter(lines.values())))
     _name_axes(panels, units, name)
     _name_resultants(panels["force"], resultants(lines))
     _set_limits(panels, lines)
-    _place(figure, panels, places)
+    _place(panels, places)
+    _add_legend(figure)
+    return figure
+
+
+def _add_legend(figure):
+    """Below all panels; one of two rows makes the figure taller."""
+    count = sum(len(axes.get_legend_handles_labels()[1]) for axes in figure.axes)
+    if count > IN_A_ROW:
+        _lengthen(figure, SECOND_ROW)
     figure.legend(
         loc="lower center",
-        ncols=4,
+        ncols=IN_A_ROW if count <= IN_A_ROW else -(-count // 2),
         handlelength=2.6,
         columnspacing=1.3,
         borderaxespad=0.1,
     )
-    return figure
+
+
+def _lengthen(figure, room):
+    """Move all panels up by some inches, in a figure that is taller by as many."""
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + room)
+    for axes in figure.axes:
+        left, bottom, wide, tall = axes.get_position().bounds
+        place = (bottom * height + room) / (height + room), tall * height / (height + room)
+        axes.set_position((left, place[0], wide, place[1]))
 
 
 def _to_unit(lines, columns):
@@ -139,7 +162,7 @@ def _set_limits(panels, lines):
         panels["force"].set_ylim(-0.05, 1)
 
 
-def _place(figure, panels, places):
+def _place(panels, places):
     """Leave room at the left for the longest tick label."""
     letters = max(_letters(axes) for axes in panels.values())
     left = LEFT + LETTER * letters
@@ -225,6 +248,16 @@ def _draw_critical_points(panels, lines):
             marker = CRITICAL | {"markeredgecolor": colour}
             panels["u"].plot(places, heights, "o", label=point, zorder=5, **marker)
             point = "_"  # one entry of the legend is enough
+
+
+def _draw_touching(panels, line):
+    """Bands where the exact solution is on the obstacle without force."""
+    label = TOUCHING
+    for first, last in touching_intervals(line):
+        for axes in panels.values():
+            named = label if axes is panels["u"] else "_"
+            axes.axvspan(first, last, color=FAINT, alpha=0.35, linewidth=0, label=named, zorder=0)
+        label = "_"
 
 
 def _draw_ends(panels, line):

@@ -12,6 +12,7 @@ NUMBERS = (
 """Columns of contact_line.csv that are numbers and drawn; not every table has all of them."""
 _CR_FROM_P1 = r"u_\mathrm{CR} - u_\mathrm{P1}"
 _ABSENT = {"threshold": 0.0} | dict.fromkeys([*_TRUTHS, *_RESULTANTS])
+_ROUND_OFF = 1e-12  # of u, in lengths of its range
 BY_TURNS = 4  # neighbouring critical points from which on they are an interval
 
 
@@ -165,6 +166,38 @@ def critical_runs(line):
     alone = [run for run in runs if run.size < BY_TURNS]
     together = [(run[0], run[-1]) for run in runs if run.size >= BY_TURNS]
     return np.concatenate([places[:0], *alone]), np.reshape(together, (-1, 2))
+
+
+def touching_intervals(line):
+    """Where the exact solution is on the obstacle and an element has no force.
+
+    Such contact is biactive: neither the gap nor the force tells that there is any. Few places in a
+    row are no interval: by those a discrete contact zone is shorter than the exact one.
+
+    Parameters
+    ----------
+    line : mapping of str to ndarray
+        As `finest_lines` returns.
+
+    Returns
+    -------
+    ndarray, shape (k, 2)
+        First and last arc length of each interval; none where there is no exact solution.
+
+    Examples
+    --------
+    >>> s = np.arange(8.0)
+    >>> line = {"s": s, "component": np.ones(8), "obstacle": 0 * s, "flux": np.where(s < 2, 1, 0)}
+    >>> touching_intervals(line | {"exact": np.where(s < 7, 0.0, 1.0)}).tolist()
+    [[2.0, 6.0]]
+    """
+    gap = np.abs(line["exact"] - line["obstacle"])  # NaN where there is no exact solution
+    scale = np.max(np.abs(line["obstacle"]), initial=0.0) + np.nanmax(gap, initial=0.0)
+    touching = np.flatnonzero((gap <= _ROUND_OFF * scale) & (line["flux"] == 0.0))
+    apart = (np.diff(touching) > 1) | (np.diff(line["component"][touching]) != 0)
+    runs = np.split(touching, np.flatnonzero(apart) + 1)
+    ends = [line["s"][[run[0], run[-1]]] for run in runs if run.size >= BY_TURNS]
+    return np.reshape(ends, (-1, 2))
 
 
 def critical_heights(line):

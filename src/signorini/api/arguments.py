@@ -32,6 +32,15 @@ def read_datum(value: Datum, field: str) -> Formula | Function:
     ------
     FormulaError
         If it is none of these.
+
+    Examples
+    --------
+    >>> data = read_datum("x*y", "f"), read_datum(lambda x, y: x * y, "f")
+    >>> [float(datum(2.0, 3.0)) for datum in data]
+    [6.0, 6.0]
+    >>> read_datum(3j, "f")
+    Traceback (most recent call last):
+    signorini.exceptions.FormulaError: f: 3j is not real; give a number, a formula in x ...
     """
     if isinstance(value, Formula | Function):
         return value
@@ -67,6 +76,12 @@ def read_partwise(value: PartwiseDatum, field: str) -> Formula | Function | ByPa
     ------
     FormulaError
         As `read_datum`.
+
+    Examples
+    --------
+    >>> datum = read_partwise({"left": 0, "right": "y"}, "g")
+    >>> sorted(datum.parts), float(datum.parts["right"](1.0, 0.5))
+    (['left', 'right'], 0.5)
     """
     if not isinstance(value, Mapping):
         return read_datum(value, field)
@@ -81,6 +96,11 @@ def read_coefficient(value: PartwiseDatum) -> Formula | Function | BySubdomain:
     ------
     FormulaError, SceneError
         If it is none of these, or a number is out of range.
+
+    Examples
+    --------
+    >>> read_coefficient({"steel": 50, "copper": 400}).numbers
+    {'steel': 50.0, 'copper': 400.0}
     """
     if not isinstance(value, Mapping):
         return read_datum(value, "coefficient")
@@ -113,6 +133,14 @@ def read_names(value: Names | None, field: str, known: Iterable[str]) -> tuple[s
     ------
     SceneError
         If it names a part that is not there.
+
+    Examples
+    --------
+    >>> read_names("top", "contact", ["bottom", "top"])
+    ('top',)
+    >>> read_names(["lid"], "contact", ["bottom", "top"])
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: contact: the boundary has no part 'lid'; known: ...
     """
     known = list(known)
     names = (value,) if isinstance(value, str) else () if value is None else value
@@ -130,7 +158,14 @@ def read_names(value: Names | None, field: str, known: Iterable[str]) -> tuple[s
 
 
 def described(value: object) -> str:
-    """What a wrong argument is, for a message: shape and type of an array, else value and type."""
+    """What a wrong argument is, for a message: shape and type of an array, else value and type.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> described(np.zeros((2, 3))), described(2.5)
+    ('an array of shape (2, 3) and type float64', '2.5 (float)')
+    """
     if hasattr(value, "shape") and hasattr(value, "dtype"):
         return f"an array of shape {value.shape} and type {value.dtype}"
     text = " ".join(repr(value).split())

@@ -37,7 +37,14 @@ class Mesh:
 
     @property
     def boundaries(self) -> tuple[str, ...]:
-        """The names of the parts of the boundary."""
+        """The names of the parts of the boundary.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(4).boundaries
+        ('bottom', 'right', 'top', 'left')
+        """
         return SIDES if self._is_rectangle else tuple(self.domain["mesh"].parts)
 
     @property
@@ -47,7 +54,14 @@ class Mesh:
 
     @property
     def h(self) -> float:
-        """Mesh width, unit of length."""
+        """Mesh width, unit of length.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(4).h, signorini.rectangle(4).refined().h
+        (0.25, 0.125)
+        """
         return float(self._unlabelled.mesh_size(self.n))
 
     @property
@@ -62,7 +76,14 @@ class Mesh:
 
     @property
     def number_of_triangles(self) -> int:
-        """Number of triangles."""
+        """Number of triangles.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(4).number_of_triangles, signorini.rectangle(8).number_of_triangles
+        (32, 128)
+        """
         return int(self._unlabelled.count_triangles(self.n))
 
     def refined(self, times: int = 1) -> "Mesh":
@@ -112,6 +133,12 @@ class Mesh:
         ------
         MeshError
             If there is no such level.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(4).level(6).h * 6
+        1.0
         """
         check_level(n)
         self._unlabelled.count_triangles(int(n))
@@ -135,6 +162,12 @@ class Mesh:
         ------
         MeshError
             If there is no label for a side of a rectangle.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(4).labelled({"bottom": "contact"}, rest="neumann")[1]
+        {'bottom': 'contact', 'right': 'neumann', 'top': 'neumann', 'left': 'neumann'}
         """
         if not self._is_rectangle:
             return self.domain | {"rest": rest}, dict(labels)
@@ -147,7 +180,15 @@ class Mesh:
         return self.domain, {side: labels.get(side, rest) for side in SIDES}
 
     def to_skfem(self) -> Any:
-        """The mesh as a `skfem.MeshTri`, numbered alike, its boundaries and subdomains named."""
+        """The mesh as a `skfem.MeshTri`, numbered alike, its boundaries and subdomains named.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> mesh = signorini.rectangle(4).to_skfem()
+        >>> sorted(mesh.boundaries), mesh.t.shape
+        (['bottom', 'left', 'neumann', 'right', 'top'], (3, 32))
+        """
         mesh = self._triangulation
         names = {name: mesh.boundary_facets(part_key(name)) for name in self.boundaries}
         regions = {name: mesh.subdomains[name] for name in self.subdomains}
@@ -181,6 +222,12 @@ def check_level(n: object) -> None:
     ------
     MeshError
         Saying what one is.
+
+    Examples
+    --------
+    >>> check_level(2.5)
+    Traceback (most recent call last):
+    signorini.exceptions.MeshError: n: 2.5 (float) is not valid; n is 1/h, a whole ...
     """
     if not _is_whole(n) or n < 1:  # type: ignore[operator]
         raise MeshError(f"n: {described(n)} is not valid; n is 1/h, a whole number, for instance 8")

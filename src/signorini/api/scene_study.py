@@ -29,6 +29,18 @@ def scene_rows(scene: Scene, norms: Sequence[str] | None = None) -> list[dict[st
     ------
     SignoriniError
         Of the solver; or if the scene has no truth.
+
+    Examples
+    --------
+    >>> from signorini import Scene
+    >>> document = {
+    ...     "domain": {"kind": "rectangle"},
+    ...     "boundary": dict.fromkeys(("bottom", "right", "top", "left"), "dirichlet"),
+    ...     "data": {}, "levels": [4, 8], "truth": {"kind": "exact", "u": "x - 2*y"},
+    ... }
+    >>> rows = scene_rows(Scene.from_dict(document), norms=["l2"])
+    >>> [(row["element"], row["n"], row["l2"] < 1e-15) for row in rows]
+    [('P1', 4, True), ('P1', 8, True), ('CR', 4, True), ('CR', 8, True)]
     """
     check_truth(scene)
     with naming(scene.source):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from signorini.api.saving import saved
 from signorini.api.types import Floats
 from signorini.exceptions import SceneError
 from signorini.solvers import Solution as SolverSolution
@@ -52,6 +53,15 @@ class Solution(SolverSolution):
 
         It is the sum of `force`, so that it balances the other forces exactly: tested with v = 1
         near the contact part, not integrated from a gradient.
+
+        Examples
+        --------
+        Nothing else holds the body: the obstacle carries all of the load -1.
+
+        >>> import signorini
+        >>> problem = signorini.problem(signorini.rectangle(8), f=-1, contact=["bottom", "top"])
+        >>> round(signorini.solve(problem).resultant, 12)
+        1.0
         """
         return float(self.force.sum())
 
@@ -60,6 +70,15 @@ class Solution(SolverSolution):
         """Where the constraint starts to bind, shape (2, k), unit of length.
 
         Midway between neighbouring contact dofs of which one binds: known to half a mesh width.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> sides = {"dirichlet": {"top": 0}, "contact": "bottom"}
+        >>> problem = signorini.problem(signorini.rectangle(64), f="sin(2*pi*x)", **sides)
+        >>> signorini.solve(problem).critical_points
+        array([[0.6875],
+               [0.    ]])
         """
         from signorini.fem.contact_line import critical_points
 
@@ -68,7 +87,17 @@ class Solution(SolverSolution):
 
     @property
     def gradient(self) -> Floats:
-        """Gradient of u on each triangle, shape (2, nt), unit of u per length."""
+        """Gradient of u on each triangle, shape (2, nt), unit of u per length.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> ends = {"top": 3, "bottom": 0}
+        >>> problem = signorini.problem(signorini.rectangle(1), f=0, dirichlet=ends)
+        >>> signorini.solve(problem).gradient.round(12) + 0.0
+        array([[0., 0.],
+               [3., 3.]])
+        """
         mesh = self.problem.mesh
         return mesh.gradients(self.problem.finite_element.vertex_values(mesh, self.u))
 
@@ -89,6 +118,16 @@ class Solution(SolverSolution):
         ------
         MeshError
             If the points are no finite numbers of that shape, or one lies outside the domain.
+
+        Examples
+        --------
+        u = y between 0 below and 1 above:
+
+        >>> import signorini
+        >>> ends = {"top": 1, "bottom": 0}
+        >>> problem = signorini.problem(signorini.rectangle(4), f=0, dirichlet=ends)
+        >>> signorini.solve(problem).at([[0.3, 0.3], [0.25, 0.9]]).round(12)
+        array([0.25, 0.9 ])
         """
         from signorini.fem.evaluate import evaluate
 
@@ -173,7 +212,7 @@ class Solution(SolverSolution):
         from signorini.figures.field import draw_field
         from signorini.report.field import field_of
 
-        return _saved(draw_field(field_of(self.problem.mesh, self._stored), title), path)
+        return saved(draw_field(field_of(self.problem.mesh, self._stored), title), path)
 
     def plot_contact(self, path: str | Path | None = None) -> "Figure":
         """Draw u over the obstacle, and below it the contact force, along the contact part.
@@ -199,7 +238,7 @@ class Solution(SolverSolution):
             raise SceneError(
                 "contact: the problem has no contact part to draw; name one in contact"
             )
-        return _saved(draw_contact_line(rows), path)
+        return saved(draw_contact_line(rows), path)
 
     def to_vtu(self, path: str | Path) -> None:
         """Write u, its gradient, the coefficient, the boundary and the contact for ParaView.
@@ -258,16 +297,3 @@ class Solution(SolverSolution):
         problem = self.problem
         h = longest_edge(problem.mesh) if problem.h is None else problem.h
         return stored(problem, self, problem.n or 1, h)
-
-
-def _saved(figure: "Figure", path: str | Path | None) -> "Figure":
-    """The figure, written where a path is given."""
-    if path is not None:
-        from signorini.figures.style import FORMATS, save_figure
-
-        if Path(path).suffix not in FORMATS:
-            raise SceneError(
-                f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"
-            )
-        save_figure(figure, path, sealed=False)
-    return figure

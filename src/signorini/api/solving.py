@@ -21,6 +21,13 @@ def solve_level(scene: Scene, element: str, n: int) -> Any:
     Returns
     -------
     StoredSolution
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> solution = solve_level(load_scene("config/scenes/paper.yaml"), "CR", 64)
+    >>> solution.status, solution.dofs
+    ('solved', 12352)
     """
     from signorini.fem.problem import discretize_on
     from signorini.solvers import solve
@@ -42,6 +49,13 @@ def solve_levels(scene: Scene) -> Iterator[Any]:
     Yields
     ------
     StoredSolution
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> solutions = solve_levels(load_scene("config/scenes/paper.yaml"))
+    >>> next(solutions).element, next(solutions).n
+    ('P1', 4)
     """
     for element in scene.elements:
         for n in scene.levels:

@@ -201,6 +201,14 @@ def ball_radius(distance, oscillation, contact, slack):
     Returns
     -------
     float
+
+    Examples
+    --------
+    Without oscillation and contact term it is half the distance of v and tau:
+
+    >>> nothing = np.zeros(2)
+    >>> float(ball_radius(np.array([3.0, 4.0]), nothing, 0.0, 0.0))
+    2.5
     """
     total = norm(oscillation)
     square = norm(distance + oscillation) ** 2
@@ -217,7 +225,13 @@ def contact_term(equilibrium, admissible):
 
 
 def norm(values):
-    """The Euclidean norm of a vector."""
+    """The Euclidean norm of a vector.
+
+    Examples
+    --------
+    >>> norm(np.array([3.0, 4.0]))
+    5.0
+    """
     return float(np.sqrt(dot(values, values)))
 
 

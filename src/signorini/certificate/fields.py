@@ -39,7 +39,14 @@ class Potential:
     bubbles: np.ndarray | None = None
 
     def with_bubbles(self, bubbles):
-        """The same affine part with other bubbles."""
+        """The same affine part with other bubbles.
+
+        Examples
+        --------
+        >>> plain = Potential(np.zeros((3, 1)))
+        >>> plain.bubbles is None, plain.with_bubbles(np.ones(3)).bubbles.tolist()
+        (True, [1.0, 1.0, 1.0])
+        """
         return replace(self, bubbles=bubbles)
 
 
@@ -93,7 +100,14 @@ class Field:
         return self + other.times(-1.0)
 
     def times(self, factor):
-        """factor * self."""
+        """factor * self.
+
+        Examples
+        --------
+        >>> field = Field(np.ones((3, 1)), np.ones((3, 1)))
+        >>> (field.times(2.0) - field - field).starts.ravel().tolist()
+        [0.0, 0.0, 0.0]
+        """
         rises = None if self.rises is None else factor * self.rises
         return Field(factor * self.starts, factor * self.ends, rises)
 

@@ -41,6 +41,14 @@ def approach(certified, first, elements, goal):
     Yields
     ------
     Step
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> def certified(n):
+    ...     return SimpleNamespace(n=n, elements=["CR"], numbers={"upper": [1.0 / n]})
+    >>> [step.level.n for step in approach(certified, 4, ["CR"], goal=0.1)]
+    [4, 8, 16]
     """
     n = first
     while True:
@@ -65,6 +73,17 @@ def expected_level(steps, element, goal):
     -------
     float or None
         None where there are no two steps, or the bound does not fall.
+
+    Examples
+    --------
+    A bound of first order that is .1 at n = 16 is .01 at the first n = 16 * 2**k above 160:
+
+    >>> from types import SimpleNamespace
+    >>> def step(n, upper):
+    ...     level = SimpleNamespace(n=n, elements=["CR"], numbers={"upper": [upper]})
+    ...     return Step(level, 0.0)
+    >>> expected_level([step(8, 0.2), step(16, 0.1)], "CR", goal=0.01)
+    256.0
     """
     if len(steps) < 2:
         return None

@@ -36,7 +36,16 @@ def l2_bound(enclosure, corners):
 
 
 def mean_square(V, Q):
-    """That of sum V_i lambda_i + sum Q_i lambda_i lambda_(i+1), as in `fields`."""
+    """That of sum V_i lambda_i + sum Q_i lambda_i lambda_(i+1), as in `fields`.
+
+    Examples
+    --------
+    That of a barycentric coordinate is 1/6, and of a product of two it is 1/90:
+
+    >>> one, nothing = np.array([[1.0], [0.0], [0.0]]), np.zeros((3, 1))
+    >>> [1.0 / float(mean_square(*pair)[0]) for pair in ((one, nothing), (nothing, one))]
+    [6.0, 90.0]
+    """
     total, all_q = V.sum(axis=0), Q.sum(axis=0)
     square = (total**2 + (V**2).sum(axis=0)) / 12.0
     square += (Q * (total + V + V[NEXT])).sum(axis=0) / 30.0

@@ -147,12 +147,26 @@ class Panels:
         self.weights = (self._widths[:, None] * weights).ravel()
 
     def derivative(self, values):
-        """By s, of what is given at the points, (m, count * p)."""
+        """By s, of what is given at the points, (m, count * p).
+
+        Examples
+        --------
+        >>> panels = Panels(np.array([0.0, 0.5, 1.0]))
+        >>> bool(np.allclose(panels.derivative(panels.s[None] ** 3), 3.0 * panels.s**2))
+        True
+        """
         slopes = self._cut(values) @ self._derivative.T / self._widths[:, None]
         return slopes.reshape(values.shape)
 
     def integral(self, values):
-        """From 0 to each point, of what is given at them, (m, count * p)."""
+        """From 0 to each point, of what is given at them, (m, count * p).
+
+        Examples
+        --------
+        >>> panels = Panels(np.array([0.0, 0.3, 1.0]))
+        >>> bool(np.allclose(panels.integral(3.0 * panels.s[None] ** 2), panels.s**3))
+        True
+        """
         fixed = self._derivative.copy()
         fixed[0] = np.eye(_POINTS)[0]  # a derivative and a value at the start say all
         rates = self._cut(values) * self._widths[:, None]
@@ -162,7 +176,16 @@ class Panels:
         return (within + before[..., None]).reshape(values.shape)
 
     def sums(self, values):
-        """Of weighted values, panel by panel, (m, count)."""
+        """Of weighted values, panel by panel, (m, count).
+
+        Examples
+        --------
+        Of s on both halves of [0, 1]:
+
+        >>> panels = Panels(np.array([0.0, 0.5, 1.0]))
+        >>> panels.sums(panels.s[None]).round(12)
+        array([[0.125, 0.375]])
+        """
         return self._cut(values * self.weights).sum(axis=-1)
 
     def _cut(self, values):
@@ -177,6 +200,13 @@ def by_values(function):
     function : callable
         From fractions s, shape (q,), and the places of some of the facets to values of shape (m,
         q).
+
+    Examples
+    --------
+    >>> panels = Panels(np.array([0.0, 1.0]))
+    >>> _, values, slopes = by_values(lambda s, facets: s[None] ** 2)(panels, slice(None))
+    >>> bool(np.allclose(slopes, 2.0 * panels.s))
+    True
     """
 
     def found(panels, facets):
@@ -187,7 +217,15 @@ def by_values(function):
 
 
 def by_slopes(function):
-    """The same of one given by its derivative; it is zero at the start of each facet."""
+    """The same of one given by its derivative; it is zero at the start of each facet.
+
+    Examples
+    --------
+    >>> panels = Panels(np.array([0.0, 1.0]))
+    >>> _, values, slopes = by_slopes(lambda s, facets: 2.0 * s[None])(panels, slice(None))
+    >>> bool(np.allclose(values, panels.s**2))
+    True
+    """
 
     def found(panels, facets):
         slopes = function(panels.s, facets)

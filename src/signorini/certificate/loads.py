@@ -44,6 +44,16 @@ def triangle_loads(mesh, f, rule):
     Returns
     -------
     TriangleLoads
+
+    Examples
+    --------
+    The moments of f = 1 add up to the area, and an affine f leaves nothing else:
+
+    >>> from signorini.formula import Formula
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+    >>> loads = triangle_loads(grid, Formula("1 + 0*x"), "exact")
+    >>> round(float(loads.moments.sum()), 12), bool(loads.remainder.max() < 1e-30)
+    (1.0, True)
     """
     count = mesh.number_of_triangles
     if f.constant is not None:

@@ -43,6 +43,13 @@ def mirrored(data):
     Returns
     -------
     Data
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> data = load_scene("config/scenes/paper.yaml").problem_statement.data
+    >>> float(mirrored(data).f(0.25, 0.0) + data.f(0.25, 0.0))
+    0.0
     """
     signed = {name: _negated(getattr(data, name)) for name in _SIGNED}
     return replace(data, **signed, constraint="lower" if data.constraint == "upper" else "upper")

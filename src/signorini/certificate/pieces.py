@@ -49,7 +49,15 @@ class Piece:
 
     @cached_property
     def area(self):
-        """Area of each, shape (m,), unit of length squared."""
+        """Area of each, shape (m,), unit of length squared.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> [piece.area.tolist() for piece in Topology(grid).pieces()]
+        [[0.125], [0.125]]
+        """
         return 0.5 * np.abs(self._doubled)
 
     @cached_property
@@ -59,14 +67,32 @@ class Piece:
 
     @cached_property
     def couplings(self):
-        """|T| grad lambda_i . grad lambda_(i+1) = -cot(angle opposite to facet i) / 2, (3, m)."""
+        """|T| grad lambda_i . grad lambda_(i+1) = -cot(angle opposite to facet i) / 2, (3, m).
+
+        Examples
+        --------
+        Minus half the cotangents, of 45, 90 and 45 degrees:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> next(Topology(grid).pieces()).couplings.ravel() + 0.0
+        array([-0.5,  0. , -0.5])
+        """
         one, other = self.edges[NEXT], self.edges[LAST]
         scalar = one[:, 0] * other[:, 0] + one[:, 1] * other[:, 1]
         return 0.25 * scalar / self.area
 
     @cached_property
     def longest(self):
-        """The longest edge of each, shape (m,), unit of length."""
+        """The longest edge of each, shape (m,), unit of length.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(3, 4, (0.0, 0.0), (9.0, 16.0), "falling", ("contact",) * 4)
+        >>> next(Topology(grid).pieces()).longest.tolist()
+        [5.0]
+        """
         return np.sqrt((self.edges**2).sum(axis=1).max(axis=0))
 
 
@@ -101,12 +127,27 @@ class Topology:
 
     @property
     def least_coefficient(self):
-        """The smallest coefficient."""
+        """The smallest coefficient.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> Topology(grid, np.array([3.0, 2.0])).least_coefficient
+        2.0
+        """
         return 1.0 if self.coefficient is None else float(self.coefficient.min())
 
     @property
     def total_area(self):
-        """Area of the body, unit of length squared."""
+        """Area of the body, unit of length squared.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> Topology(Grid(2, 2, (0.0, 0.0), (2.0, 3.0), "falling", ("contact",) * 4)).total_area
+        6.0
+        """
         return float(np.sum(np.broadcast_to(self.mesh.area, self.count)))
 
     def pieces(self):
@@ -142,13 +183,33 @@ class Topology:
 
     @cached_property
     def sides(self):
-        """How many triangles have each facet, shape (nf,)."""
+        """How many triangles have each facet, shape (nf,).
+
+        Examples
+        --------
+        Four facets of a square cut in two are on its boundary; its diagonal has two sides:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> sorted(Topology(grid).sides.tolist())
+        [1.0, 1.0, 1.0, 1.0, 2.0]
+        """
         sides = np.full(self.mesh.number_of_facets, 2.0)
         sides[self.t2f[tuple(self.boundary)]] = 1.0
         return sides
 
     def sums_over_facets(self, values):
-        """What triangles give to their facets, summed: (3, nt) to (nf,)."""
+        """What triangles give to their facets, summed: (3, nt) to (nf,).
+
+        Examples
+        --------
+        One from each triangle to each of its facets is how many triangles have it:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> topology = Topology(Grid(2, 3, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4))
+        >>> bool(np.all(topology.sums_over_facets(np.ones((3, topology.count))) == topology.sides))
+        True
+        """
         mesh, count = self.mesh, self.mesh.number_of_facets
         if not isinstance(mesh, Grid):
             return np.bincount(self.t2f.ravel(), values.ravel(), minlength=count)

@@ -59,12 +59,31 @@ class Trace:
         return np.where(self.vertices[1] > self.vertices[0], self.sense, -self.sense)
 
     def only(self, chosen):
-        """Some of the facets, by their places or a mask."""
+        """Some of the facets, by their places or a mask.
+
+        Examples
+        --------
+        >>> from signorini.certificate.pieces import Topology
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> trace(Topology(grid), "contact").only([0, 1]).length.tolist()
+        [0.5, 0.5]
+        """
         parts = {field.name: getattr(self, field.name)[..., chosen] for field in fields(self)}
         return Trace(**parts)
 
     def points(self, s):
-        """Coordinates x and y at the fractions `s`, shape (q,), of the way: both (m, q)."""
+        """Coordinates x and y at the fractions `s`, shape (q,), of the way: both (m, q).
+
+        Examples
+        --------
+        >>> from signorini.certificate.pieces import Topology
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> trace(Topology(grid), "contact").points(np.array([0.25, 0.75])).tolist()
+        [[[0.25, 0.75]], [[0.0, 0.0]]]
+        """
         along = self.end - self.start
         return self.start[:, :, None] + along[:, :, None] * s
 
@@ -77,7 +96,17 @@ class Trace:
 
 
 def trace(topology, label):
-    """The `Trace` of a mesh on the facets that carry a label, or the key of a part."""
+    """The `Trace` of a mesh on the facets that carry a label, or the key of a part.
+
+    Examples
+    --------
+    >>> from signorini.certificate.pieces import Topology
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> found = trace(Topology(Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)), "contact")
+    >>> found.middle.tolist(), found.normal[1].tolist()
+    ([[0.25, 0.75], [0.0, 0.0]], [-1.0, -1.0])
+    """
     mesh = topology.mesh
     labelled = np.zeros(mesh.number_of_facets, dtype=bool)
     labelled[mesh.boundary_facets(label)] = True
@@ -140,6 +169,14 @@ def sampled(topology, trace, datum, s):
 
 
 def is_constant(datum):
-    """Whether a datum is known to be constant on each of its parts."""
+    """Whether a datum is known to be constant on each of its parts.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> parts = ByPart({"left": Formula("1"), "right": Formula("x")}, "g")
+    >>> is_constant(Formula("2*pi")), is_constant(parts)
+    (True, False)
+    """
     parts = datum.parts.values() if isinstance(datum, ByPart) else [datum]
     return all(part.constant is not None for part in parts)

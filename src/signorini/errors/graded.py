@@ -66,6 +66,20 @@ def graded(corners, singular_points, rule, least=0):
     shares : ndarray, shape (j,)
         Shares of the parts in their measure; factors of the quadrature weights, as are
     weights : ndarray, shape (q,) or (j, q)
+
+    Examples
+    --------
+    The integral of 1/sqrt(x) over [0, 1] is 2, and needs the grading:
+
+    >>> from signorini.fem.quadrature import interval_rule
+    >>> s, weights = interval_rule(7)
+    >>> segment, rule = np.zeros((2, 2, 1)), (np.stack([1.0 - s, s]), weights)
+    >>> segment[0, 1] = 1.0
+    >>> def integral(*singular):
+    ...     parts = graded(segment, singular, rule)
+    ...     return sum(np.sum(part[2][:, None] * part[3] * part[1][1] ** -0.5) for part in parts)
+    >>> [round(float(value), 2) for value in (integral(), integral((0.0, 0.0)))]
+    [1.81, 2.0]
     """
     points, weights = rule
     near = np.ones(corners.shape[2], dtype=bool)
@@ -118,6 +132,14 @@ def near_singular(corners, singular_points):
     -------
     ndarray of bool, shape (m,)
         Whether one lies within `NEAR` longest edges of the centroid.
+
+    Examples
+    --------
+    The first of two unit triangles touches the singular point, the second is far off:
+
+    >>> near = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    >>> near_singular(np.stack([near, near + 9.0], axis=2), [(0.0, 0.0)])
+    array([ True, False])
     """
     near = np.zeros(corners.shape[2], dtype=bool)
     if not len(singular_points):
@@ -144,6 +166,14 @@ def square(values, outer, inner):
     mantissa : float
     exponent : int
         The sum is mantissa times 4**exponent.
+
+    Examples
+    --------
+    Of numbers whose squares overflow:
+
+    >>> mantissa, exponent = square(np.full((2, 2), 2.0**600), np.ones(2), 1.0)
+    >>> mantissa * 4.0 ** (exponent - 600)
+    4.0
     """
     with np.errstate(over="ignore", under="ignore"):
         plain = _sum_of_squares(values, outer, inner)
@@ -170,13 +200,27 @@ def scaled_weight(values):
     scaled : ndarray
     half : int
         ``values`` are ``scaled`` times 4**half, and roots of sums are to be multiplied by 2**half.
+
+    Examples
+    --------
+    >>> scaled, half = scaled_weight(np.array([4.0, 2.0**41]))
+    >>> bool(np.all(scaled * 4.0**half == [4.0, 2.0**41])), float(scaled.max())
+    (True, 0.5)
     """
     half = int(np.frexp(np.max(values))[1]) // 2
     return np.ldexp(values, -2 * half), half
 
 
 def root(squares):
-    """Square root of a sum of squares, each as `square` gives it."""
+    """Square root of a sum of squares, each as `square` gives it.
+
+    Examples
+    --------
+    >>> root([(9.0, 0), (1.0, 2)])
+    5.0
+    >>> root([square(np.full((1, 4), 3e200), np.ones(1), 1.0)])
+    6e+200
+    """
     squares = [pair for pair in squares if pair[0]]
     top = max((exponent for _, exponent in squares), default=0)
     total = math.fsum(math.ldexp(mantissa, 2 * (exponent - top)) for mantissa, exponent in squares)

@@ -88,6 +88,19 @@ def gradient_errors_by_reference(mesh, element, u, finer, reference):
     ------
     MeshError
         If `finer` is not a refinement of `mesh`.
+
+    Examples
+    --------
+    A reference on the same mesh leaves nothing:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> solution = solve_level(scene, "CR", 4)
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> errors = gradient_errors_by_reference(mesh, "CR", solution.u, mesh, solution)
+    >>> float(errors.max())
+    0.0
     """
     kind = find_element(reference.element)
     mean = finer.gradients(kind.vertex_values(finer, reference.u))

@@ -28,6 +28,18 @@ def against_reference(truth, domain, norms, quadrature, coefficient=1):
     callable
         To a dict: norm -> error or None, and ``"floor"``, the names of the norms that are round-off
         alone, or ``"reference"`` for the truth itself.
+
+    Examples
+    --------
+    A reference has no error against itself:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> truth, domain = solve_level(scene, "P1", 16), scene.problem_statement.triangulations
+    >>> errors = against_reference(truth, domain, ["l2", "h1_semi"], "exact")
+    >>> errors(truth)["l2"], errors(solve_level(scene, "P1", 8))["h1_semi"] > 0.1
+    (0.0, True)
     """
     mesh, coefficient = domain.level(truth.n), read_coefficient(coefficient)
     measure = reference_measure(mesh, truth, norms, quadrature, _weight(mesh, coefficient, norms))
@@ -99,6 +111,19 @@ def against_exact(statement, domain, norms):
     callable
         From a `StoredSolution` to a dict as in `against_reference`. It raises `SceneError` where
         critical points are asked for and none of the exact ones lies on the contact part.
+
+    Examples
+    --------
+    The error of CR in L2 falls by four where h is halved:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/smooth.yaml")
+    >>> statement = scene.problem_statement
+    >>> errors = against_exact(statement, statement.triangulations, ["l2"])
+    >>> coarse, fine = (errors(solve_level(scene, "CR", n))["l2"] for n in (16, 32))
+    >>> round(coarse / fine, 1)
+    4.0
     """
     measure, coefficient = exact_measure(statement.exact, norms), statement.data.coefficient
 
@@ -123,6 +148,18 @@ def exact_measure(exact, norms):
     callable
         From a mesh, a `StoredSolution` on it, and the diffusion coefficient on it, None for 1, to a
         dict as in `against_exact`, also for what is raised.
+
+    Examples
+    --------
+    Nothing of an affine solution is lost:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/patch.yaml")
+    >>> measure = exact_measure(scene.problem_statement.exact, ["l2"])
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> measure(mesh, solve_level(scene, "CR", 4))["l2"] < 1e-14
+    True
     """
     from signorini.errors.contact import contact_errors
     from signorini.errors.exact import ExactErrors
@@ -180,6 +217,15 @@ def row(solution, errors):
     -------
     dict
         What it is, its errors, what they rest on, and how it was computed.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> solution = solve_level(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> told = row(solution, lambda _: {"l2": 0.5})
+    >>> told["element"], told["n"], told["l2"], told["status"]
+    ('P1', 8, 0.5, 'solved')
     """
     what = {
         "element": solution.element,

@@ -46,6 +46,11 @@ def squared_edges(corners):
     """Squared lengths of the edges of simplices, (k, m), of corners (2, k, m).
 
     The edge that ends at a corner starts at the one before.
+
+    Examples
+    --------
+    >>> squared_edges(np.array([[[0.0], [3.0], [0.0]], [[0.0], [0.0], [4.0]]])).ravel()
+    array([16.,  9., 25.])
     """
     edges = corners - np.roll(corners, 1, axis=1)
     return (edges * edges).sum(axis=0)
@@ -63,6 +68,15 @@ def is_needle(corners, aspect):
     Returns
     -------
     ndarray of bool, shape (m,)
+
+    Examples
+    --------
+    The ratio of an isosceles right triangle is 2, that of one with legs 1 and 10 above 10:
+
+    >>> def right(leg):
+    ...     return np.array([[[0.0], [leg], [0.0]], [[0.0], [0.0], [1.0]]])
+    >>> [bool(is_needle(right(leg), aspect=4.0)[0]) for leg in (1.0, 10.0)]
+    [False, True]
     """
     (ax, ay), (bx, by) = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return squared_edges(corners).max(axis=0) > aspect * np.abs(ax * by - ay * bx)
@@ -87,6 +101,15 @@ def needle_parts(corners, singular_points, near, depth, least=0):
     ------
     triangles, points, shares, weights
         As from `graded.graded`; the weights are of shape (j, q).
+
+    Examples
+    --------
+    Shares and weights of all boxes add up to one:
+
+    >>> needle = np.array([[[0.0], [100.0], [0.0]], [[0.0], [0.0], [1.0]]])
+    >>> parts = needle_parts(needle, [(0.0, 0.0)], near=1.5, depth=16)
+    >>> round(sum(float(shares @ weights.sum(axis=1)) for _, _, shares, weights in parts), 12)
+    1.0
     """
     right = _right_triangles(corners)
     extent = np.abs(corners).max(axis=(0, 1))[right.triangles]  # what coordinates round to

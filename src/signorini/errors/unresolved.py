@@ -34,6 +34,19 @@ def unresolved(mesh, exact, norms, coefficient=None):
     -------
     dict
         Norm -> its value, in its unit; 0 where it is round-off of the formula.
+
+    Examples
+    --------
+    Nothing of an affine function, and of a parabola what is of second order in h:
+
+    >>> from signorini.exact.solution import FormulaSolution
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> grids = [Grid(n, n, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4) for n in (4, 8)]
+    >>> parabola = FormulaSolution(Formula("x**2"))
+    >>> coarse, fine = (unresolved(grid, parabola, ["l2"])["l2"] for grid in grids)
+    >>> round(coarse / fine, 12), unresolved(grids[0], FormulaSolution(Formula("x")), ["l2"])
+    (4.0, {'l2': 0.0})
     """
     return {norm: _REST[norm](mesh, exact, coefficient) for norm in norms}
 

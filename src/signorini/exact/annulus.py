@@ -52,7 +52,13 @@ class Annulus(ExactSolution):
 
     @property
     def critical_points(self):
-        """The two ends of the contact zone."""
+        """The two ends of the contact zone.
+
+        Examples
+        --------
+        >>> Annulus(half_angle=np.pi / 2, load_value=0.0, press=1.0).critical_points[0][0]
+        1.0
+        """
         x, y = float(np.sin(self.half_angle)), -float(np.cos(self.half_angle))
         return (x, y), (-x, y)
 
@@ -62,11 +68,29 @@ class Annulus(ExactSolution):
         return self.critical_points
 
     def value(self, x, y):
-        """u at points, by the closed form; parameters as in `ExactSolution.value`."""
+        """u at points, by the closed form; parameters as in `ExactSolution.value`.
+
+        Examples
+        --------
+        Zero where the circle is in contact, positive beyond:
+
+        >>> ring = Annulus(half_angle=1.0, load_value=-1.0, press=1.0)
+        >>> bool(abs(ring.value(0.0, -1.0)) < 1e-15), bool(ring.value(0.0, 1.0) > 0.0)
+        (True, True)
+        """
         return self._value(x, y, *self._factors(x, y))
 
     def gradient(self, x, y):
-        """Partial derivatives of u at points; as in `ExactSolution.gradient`."""
+        """Partial derivatives of u at points; as in `ExactSolution.gradient`.
+
+        Examples
+        --------
+        The contact pressure is du/dr, at the lowest point 2 sqrt(2 (1 - cos(half_angle))):
+
+        >>> ux, uy = Annulus(half_angle=np.pi / 2, load_value=-1.0, press=1.0).gradient(0.0, -1.0)
+        >>> bool(np.isclose(-uy, 2.0 * 2.0**0.5))
+        True
+        """
         return self._gradient(x, y, *self._factors(x, y))
 
     def value_and_gradient(self, x, y):
@@ -75,7 +99,13 @@ class Annulus(ExactSolution):
         return self._value(x, y, *factors), *self._gradient(x, y, *factors)
 
     def load(self, x, y):
-        """The constant load; as in `ExactSolution.load`."""
+        """The constant load; as in `ExactSolution.load`.
+
+        Examples
+        --------
+        >>> float(Annulus(half_angle=1.0, load_value=-1.0, press=1.0).load(0.2, 0.5))
+        -1.0
+        """
         return np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), self.load_value)
 
     def _factors(self, x, y):

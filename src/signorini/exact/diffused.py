@@ -85,6 +85,14 @@ class Diffused(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        -div(x grad x) = -1:
+
+        >>> from signorini.exact.solution import FormulaSolution
+        >>> float(Diffused(FormulaSolution(Formula("x")), Formula("x")).load(0.3, 0.7))
+        -1.0
         """
         if not self.knows_load:
             raise SceneError(
@@ -111,6 +119,13 @@ class Diffused(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        >>> from signorini.exact.solution import FormulaSolution
+        >>> exact = Diffused(FormulaSolution(Formula("x - y")), Formula("2 + x"))
+        >>> float(exact.flux(1.0, 0.0, 0.0, -1.0))
+        3.0
         """
         return self.coefficient(x, y) * self.u.flux(x, y, nx, ny)
 

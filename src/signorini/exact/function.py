@@ -54,6 +54,13 @@ class FunctionSolution(ExactSolution):
         ------
         SceneError
             In any case.
+
+        Examples
+        --------
+        >>> u = Function(lambda x, y: x * y, "exact")
+        >>> FunctionSolution(u, Gradient(lambda x, y: (y, x))).load(1.0, 2.0)
+        Traceback (most recent call last):
+        signorini.exceptions.SceneError: f: missing; the load of functions of a program is ...
         """
         raise SceneError("f: missing; the load of functions of a program is not derived, give it")
 

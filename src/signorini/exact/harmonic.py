@@ -38,7 +38,13 @@ class Harmonic(ExactSolution):
 
     @property
     def singular_points(self):
-        """The critical points: second derivatives grow like 1/sqrt(r) there."""
+        """The critical points: second derivatives grow like 1/sqrt(r) there.
+
+        Examples
+        --------
+        >>> Punch(half_width=0.25, x0=0.5, y0=0.0).singular_points
+        ((0.25, 0.0), (0.75, 0.0))
+        """
         return self.critical_points
 
     def load(self, x, y):
@@ -71,6 +77,14 @@ class Harmonic(ExactSolution):
         Returns
         -------
         ndarray
+
+        Examples
+        --------
+        u = r**(3/2) cos(3 theta/2) is r**(3/2) where nothing touches and 0 in contact:
+
+        >>> corner = Corner(amplitude=1.0, x0=0.0, y0=0.0)
+        >>> corner.value(np.array([4.0, -4.0]), 0.0).tolist()
+        [8.0, 0.0]
         """
         return self._value(*self._factors(x, y))
 
@@ -85,6 +99,14 @@ class Harmonic(ExactSolution):
         Returns
         -------
         ux, uy : ndarray
+
+        Examples
+        --------
+        It grows like the root of the distance:
+
+        >>> corner = Corner(amplitude=1.0, x0=0.0, y0=0.0)
+        >>> corner.gradient(np.array([1.0, 4.0, 16.0]), 0.0)[0].tolist()
+        [1.5, 3.0, 6.0]
         """
         return self._gradient(*self._factors(x, y))
 
@@ -99,6 +121,12 @@ class Harmonic(ExactSolution):
         Returns
         -------
         u, ux, uy : ndarray
+
+        Examples
+        --------
+        >>> corner = Corner(amplitude=1.0, x0=0.0, y0=0.0)
+        >>> [float(part) for part in corner.value_and_gradient(4.0, 0.0)]
+        [8.0, 3.0, 0.0]
         """
         factors = self._factors(x, y)
         return self._value(*factors), *self._gradient(*factors)

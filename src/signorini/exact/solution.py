@@ -241,6 +241,12 @@ class FormulaSolution(ExactSolution):
         Returns
         -------
         u, ux, uy : ndarray
+
+        Examples
+        --------
+        >>> exact = FormulaSolution(Formula("x**2*y", "truth.u"))
+        >>> [float(part) for part in exact.value_and_gradient(3.0, 2.0)]
+        [18.0, 12.0, 9.0]
         """
         return self.u.value_and_gradient(x, y)
 

@@ -85,6 +85,13 @@ def check_parts_meet(mesh, datum):
     ------
     SceneError
         Naming the point and both values.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("dirichlet",) * 4)
+    >>> check_parts_meet(grid, Formula("x", "data.dirichlet"))
     """
     if not isinstance(datum, ByPart):
         return

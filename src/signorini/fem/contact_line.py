@@ -1,54 +1,12 @@
-"""What happens on the contact part: trace, contact force and critical points.
+"""What happens on the contact part: trace, contact force, critical points; see `contact_walk`."""
 
-At a critical point u starts to bind. The part may have several components, and each may turn
-corners; they are walked as `mesh.paths` says, and the arc length runs on from one to the next.
-"""
-
-from dataclasses import dataclass, fields
 from math import isclose
 
 import numpy as np
 
+from signorini.fem.contact_walk import walk_contact
 from signorini.fem.elements import find_element
 from signorini.mesh.paths import boundary_paths
-
-
-@dataclass(frozen=True, eq=False)
-class ContactLine:
-    """The contact dofs of a solution in the order of the line.
-
-    Parameters
-    ----------
-    which : ndarray of int, shape (m,)
-        Positions in ``solution.contact``. A vertex where three or more facets of the part meet
-        comes once for each path that ends there.
-    component : ndarray of int, shape (m,)
-        Counted from 1.
-    s : ndarray, shape (m,)
-        Arc length, unit of length.
-    points : ndarray, shape (2, m)
-    critical : ndarray, shape (m,)
-        Arc length of the critical point between a dof and the next of its component; NaN where
-        there is none.
-    critical_points : ndarray, shape (2, c)
-    """
-
-    which: np.ndarray
-    component: np.ndarray
-    s: np.ndarray
-    points: np.ndarray
-    critical: np.ndarray
-    critical_points: np.ndarray
-
-
-_NOTHING = ContactLine(
-    which=np.zeros(0, int),
-    component=np.zeros(0, int),
-    s=np.zeros(0),
-    points=np.zeros((2, 0)),
-    critical=np.zeros(0),
-    critical_points=np.zeros((2, 0)),
-)
 
 
 def contact_line(mesh, solution):
@@ -67,8 +25,19 @@ def contact_line(mesh, solution):
         along it, on any other contact part the arc length; ``contact_u`` and ``contact_obstacle``
         (nc,); ``critical_points`` (k, 2), between neighbouring nodes of which one binds: known to
         half a mesh width.
+
+    Examples
+    --------
+    A punch of half width 0.6, to half a mesh width:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(32)
+    >>> contact_line(mesh, solve_level(scene, "CR", 32))["critical_points"].tolist()
+    [[-0.625, 0.0], [0.625, 0.0]]
     """
-    line = _ordered(mesh, find_element(solution.element), solution.contact, solution.active)
+    line = walk_contact(mesh, find_element(solution.element), solution.contact, solution.active)
     return {
         "contact_x": _position(line),
         "contact_u": solution.u[solution.contact][line.which],
@@ -104,9 +73,19 @@ def contact_rows(mesh, solution):
         of the critical point between this row and the next of its component (in a closed one the
         first follows the last), or None; ``resultant``, the whole contact force, unit of k u, the
         same in each row. Empty without contact part.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> rows = contact_rows(mesh, solve_level(scene, "CR", 4))
+    >>> [(row["s"], row["binding"]) for row in rows]
+    [(0.125, 0), (0.375, 0), (0.625, 1), (0.875, 1)]
     """
     element = find_element(solution.element)
-    line = _ordered(mesh, element, solution.contact, solution.active)
+    line = walk_contact(mesh, element, solution.contact, solution.active)
     flux = contact_flux(mesh, element, solution.contact, solution.force)
     threshold = {}
     if solution.threshold is not None:
@@ -148,6 +127,16 @@ def contact_flux(mesh, element, contact, force):
     ndarray, shape (nc,)
         The force over the length on which the dof holds: for CR its facet, for P1 the adjacent
         halves of the contact facets that meet there. Unit of k u per length.
+
+    Examples
+    --------
+    A force of h on each facet is a density of one; P1 has half a facet at each end:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> contact_flux(grid, "P1", np.arange(5), np.full(5, 0.25))
+    array([2., 1., 1., 1., 2.])
     """
     element = find_element(element)
     length = np.zeros(element.size(mesh))
@@ -172,6 +161,16 @@ def binding_pieces(mesh, solution):
         Start (x, y) and end (x, y) of each piece in the order of the line: whole facets, and the
         halves of those whose two dofs differ. A dof under a Dirichlet condition leaves its half to
         the other.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> binding_pieces(mesh, solve_level(scene, "CR", 4))[:, :, 0]
+    array([[0.5 , 0.75],
+           [0.75, 1.  ]])
     """
     element = find_element(solution.element)
     state = np.full(element.size(mesh), np.nan)  # stays NaN under a Dirichlet condition
@@ -209,8 +208,19 @@ def critical_points(mesh, element, contact, active):
     -------
     ndarray, shape (2, k)
         Unit of length.
+
+    Examples
+    --------
+    Between the second and the third midpoint:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> facets = find_element("CR").boundary_dofs(grid, "contact")
+    >>> critical_points(grid, "CR", facets, np.array([True, True, False, False])).ravel()
+    array([0.5, 0. ])
     """
-    return _ordered(mesh, find_element(element), contact, active).critical_points
+    return walk_contact(mesh, find_element(element), contact, active).critical_points
 
 
 def critical_places(mesh, solution):
@@ -227,56 +237,9 @@ def critical_places(mesh, solution):
     ndarray, shape (3, k)
         Arc length, x and y; unit of length.
     """
-    line = _ordered(mesh, find_element(solution.element), solution.contact, solution.active)
+    line = walk_contact(mesh, find_element(solution.element), solution.contact, solution.active)
     arc = line.critical[~np.isnan(line.critical)]
     return np.concatenate([arc[None], line.critical_points])
-
-
-def _ordered(mesh, element, contact, active):
-    """The `ContactLine` of a solution, by its contact dofs and which of them bind."""
-    position = np.full(element.size(mesh), -1)
-    position[contact] = np.arange(contact.size)
-    start, lines = 0.0, [_NOTHING]
-    for component, path in enumerate(boundary_paths(mesh, "contact"), start=1):
-        lines.append(_ordered_path(path, element, active, position, component, start))
-        start += path.arc_length[-1]
-    return ContactLine(
-        *(
-            np.concatenate([getattr(line, field.name) for line in lines], axis=-1)
-            for field in fields(ContactLine)
-        )
-    )
-
-
-def _ordered_path(path, element, active, position, component, start):
-    """The `ContactLine` of one path, which starts at arc length `start`.
-
-    Marks are the vertices and midpoints of the path by turns; dofs sit on every second one, and
-    critical points on those between::
-
-        P1   dof  .  dof  .  dof        CR   .  dof  .  dof  .
-              0   1   2   3   4              0   1   2   3   4
-    """
-    dofs, first = element.path_dofs(path)
-    s, marks = start + path.arc_length, path.marks
-    at = np.arange(first, s.size - path.closed, 2)
-    which = position[dofs[at // 2]]
-    known = which >= 0
-    binds = np.append(active, False)[which]  # dofs off the contact part, -1, do not bind
-    turns = known & np.roll(known, -1) & (binds != np.roll(binds, -1))
-    turns[-1] &= path.closed
-    between = at[turns] + 1
-    critical = np.full(at.size, np.nan)
-    critical[turns] = s[between]
-    at = at[known]
-    return ContactLine(
-        which=which[known],
-        component=np.full(at.size, component),
-        s=s[at],
-        points=marks[:, at],
-        critical=critical[known],
-        critical_points=marks[:, between],
-    )
 
 
 def sampled_surface(grid, u, cells):

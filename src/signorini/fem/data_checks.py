@@ -27,6 +27,14 @@ def check_poles(mesh, f):
     ------
     FormulaError
         By the formula itself.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (-1.0, -1.0), (2.0, 2.0), "falling", ("contact",) * 4)
+    >>> check_poles(grid, Formula("1/r", "data.f"))
+    Traceback (most recent call last):
+    signorini.exceptions.FormulaError: data.f: value is inf at (x, y) = (0.0, 0.0) in ...
     """
     if (
         isinstance(f, Formula | Function)

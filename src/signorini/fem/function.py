@@ -37,7 +37,13 @@ class Function:
 
     @property
     def text(self):
-        """What messages call it."""
+        """What messages call it.
+
+        Examples
+        --------
+        >>> Function(abs).text
+        'abs(x, y)'
+        """
         return f"{getattr(self.function, '__name__', type(self.function).__name__)}(x, y)"
 
     def __call__(self, x, y, *, check=True):

@@ -18,6 +18,16 @@ def contact_length(problem, solution):
     -------
     float
         Unit of length.
+
+    Examples
+    --------
+    Under a punch that is 1.2 wide:
+
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> contact_length(discretize(scene, "CR", 64), solve_level(scene, "CR", 64))
+    1.21875
     """
     return binding_length(problem.mesh, solution)
 
@@ -51,6 +61,17 @@ def free_length(problem, solution):
     -------
     float
         Unit of length.
+
+    Examples
+    --------
+    Both lengths make the whole side:
+
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> problem, solution = discretize(scene, "P1", 64), solve_level(scene, "P1", 64)
+    >>> free_length(problem, solution) + contact_length(problem, solution)
+    2.0
     """
     whole = find_boundary_trace(problem.mesh, "contact").length.sum()
     return float(whole) - contact_length(problem, solution)
@@ -72,6 +93,15 @@ def critical_point(problem, solution, which=1, coordinate="s"):
     -------
     float or None
         Unit of length; None where there are fewer such points.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> problem, solution = discretize(scene, "CR", 64), solve_level(scene, "CR", 64)
+    >>> [critical_point(problem, solution, which, "x") for which in (1, 2, 3)]
+    [-0.609375, 0.609375, None]
     """
     places = critical_places(problem.mesh, solution)
     if which > places.shape[1]:
@@ -96,6 +126,17 @@ def flux(problem, solution, through="contact"):
     -------
     float
         Unit of k u.
+
+    Examples
+    --------
+    The fluxes through both parts and the load, whose integral is 0 here, balance:
+
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> problem, solution = discretize(scene, "CR", 32), solve_level(scene, "CR", 32)
+    >>> abs(sum(flux(problem, solution, part) for part in ("contact", "dirichlet"))) < 1e-13
+    True
     """
     return float(_FLUXES[through](problem, solution))
 
@@ -112,6 +153,15 @@ def excess(problem, solution):
     -------
     float
         Unit of k u; without a threshold the flux through the contact part.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> problem, solution = discretize(scene, "CR", 32), solve_level(scene, "CR", 32)
+    >>> excess(problem, solution) == flux(problem, solution, "contact")
+    True
     """
     return float(solution.multiplier.sum())
 

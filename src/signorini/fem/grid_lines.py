@@ -33,6 +33,17 @@ def points_on_lines(grid, corners, points, first, last):
         The rows at hand, counted from `first`.
     x, y : ndarray
         Coordinates, which broadcast to (l, m, rows, nx), axis by axis.
+
+    Examples
+    --------
+    The abscissae of the centroids of the first triangles of a row:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(3, 1, (0.0, 0.0), (3.0, 1.0), "falling", ("contact",) * 4)
+    >>> centroid = np.full((3, 1), 1 / 3)
+    >>> _, _, x, y = next(points_on_lines(grid, grid.corners[0], centroid, 0, 1))
+    >>> x.ravel().round(3), y.ravel().round(3)
+    (array([0.333, 1.333, 2.333]), array([0.333]))
     """
     hx, hy = grid.spacing
     place = (points.T @ np.array(corners)).T

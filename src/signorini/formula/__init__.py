@@ -196,6 +196,11 @@ class Formula:
         -------
         list of ndarray of float64
             One for each quantity, as from a call.
+
+        Examples
+        --------
+        >>> [float(part) for part in Formula("sin(x)*y").expand(("d/dx", "laplacian"), 0.0, 2.0)]
+        [2.0, 0.0]
         """
         # Importing numpy takes 0.1 s, and reading a formula needs none of it.
         from signorini.formula.taylor import expand

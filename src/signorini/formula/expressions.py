@@ -51,12 +51,28 @@ class Graph:
         return self._unique(name, operands, value)
 
     def number(self, value):
-        """A constant; two of the same bits are one."""
+        """A constant; two of the same bits are one.
+
+        Examples
+        --------
+        Equal numbers are one expression:
+
+        >>> graph = Graph()
+        >>> graph.number(2.0) is graph.number(2.0)
+        True
+        """
         value = np.float64(value)
         return self._unique("number", (value.tobytes(),), value)
 
     def variable(self, name):
-        """One of the coordinates, "x" or "y"."""
+        """One of the coordinates, "x" or "y".
+
+        Examples
+        --------
+        >>> graph = Graph()
+        >>> graph.variable("x") is graph.variable("x"), graph.variable("x") is graph.variable("y")
+        (True, False)
+        """
         return self._unique(name, (), None)
 
     def bound(self, expression, level=0):

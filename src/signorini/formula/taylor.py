@@ -237,6 +237,13 @@ def expand(program, wanted, x, y):
     finite : bool
         Whether these and the value of the program are known to be finite at all points. False
         where a bound on one overflows, though all of them may be finite.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> results, finite = expand(Formula("x**3").program, ("value", "d2/dx2"), 2.0, 0.0)
+    >>> [float(part) for part in results], bool(finite)
+    ([8.0, 12.0], True)
     """
     # A point does not depend on the sign of a zero among its coordinates: adding 0.0 clears it.
     x, y = (np.asarray(part, dtype=np.float64) + 0.0 for part in (x, y))

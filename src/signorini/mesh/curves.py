@@ -50,12 +50,23 @@ class Circle:
         ------
         MeshError
             For the centre, to which all points are equally near.
+
+        Examples
+        --------
+        >>> Circle((1.0, 0.0), 2.0).nearest(np.array([[1.0], [5.0]])).ravel().tolist()
+        [1.0, 2.0]
         """
         center = np.array(self.center, dtype=float)[:, None]
         return center + self.radius * self.normals(p)
 
     def normals(self, p):
-        """Unit normals at points of the curve, away from the centre; as `nearest`."""
+        """Unit normals at points of the curve, away from the centre; as `nearest`.
+
+        Examples
+        --------
+        >>> Circle((0.0, 0.0), 5.0).normals(np.array([[3.0], [4.0]])).ravel().tolist()
+        [0.6, 0.8]
+        """
         away = p - np.array(self.center, dtype=float)[:, None]
         distance = np.hypot(*away)
         if not distance.all():
@@ -68,7 +79,14 @@ class Circle:
 
     @property
     def told(self):
-        """What can be stored, and read by `read_curve`."""
+        """What can be stored, and read by `read_curve`.
+
+        Examples
+        --------
+        >>> circle = Circle((0.0, 0.0), 2.0)
+        >>> read_curve(circle.told) == circle
+        True
+        """
         return {"center": list(self.center), "radius": self.radius}
 
 
@@ -99,6 +117,13 @@ class LevelSet:
             Where it finds none.
         FormulaError
             Where the formula or its gradient is not finite.
+
+        Examples
+        --------
+        >>> parabola = LevelSet(Formula("y - x**2"))
+        >>> x, y = parabola.nearest(np.array([[1.0], [1.2]]))
+        >>> bool(abs(y - x**2) < 1e-15)
+        True
         """
         found = np.array(p, dtype=float)
         for _ in range(_STEPS):
@@ -121,13 +146,25 @@ class LevelSet:
         )
 
     def normals(self, p):
-        """Unit normals at points of the curve, to where the formula grows."""
+        """Unit normals at points of the curve, to where the formula grows.
+
+        Examples
+        --------
+        >>> LevelSet(Formula("3*x + 4*y - 5")).normals(np.array([[0.6], [0.8]])).ravel().tolist()
+        [0.6, 0.8]
+        """
         gradient = np.stack(self.phi.value_and_gradient(*p)[1:])
         return gradient / np.hypot(*gradient)
 
     @property
     def told(self):
-        """What can be stored, and read by `read_curve`."""
+        """What can be stored, and read by `read_curve`.
+
+        Examples
+        --------
+        >>> LevelSet(Formula("x**2 + y**2 - 1")).told
+        'x**2 + y**2 - 1'
+        """
         return self.phi.text
 
 

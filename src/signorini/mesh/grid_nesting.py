@@ -20,6 +20,16 @@ def vertex_parents(grid):
 
     A vertex in an odd column lies on a horizontal edge of the coarse grid, one in an odd row on a
     vertical edge, one in both on a diagonal; the others are vertices of the coarse grid.
+
+    Examples
+    --------
+    The five new vertices of a cell lie between old ones; the middle one on the falling diagonal:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("", "", "", ""))
+    >>> vertex_parents(grid)
+    array([[0, 0, 1, 0, 1, 1, 2, 2, 3],
+           [0, 1, 1, 2, 2, 3, 2, 3, 3]], dtype=int32)
     """
     column, row = np.arange(grid.nx + 1), np.arange(grid.ny + 1)[:, None]
     diagonal = -1 if grid.diagonal == "falling" else 1
@@ -45,6 +55,16 @@ def children(grid, values):
     Returns
     -------
     ndarray, shape (4, m, nt / 4)
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("", "", "", ""))
+    >>> children(grid, np.arange(8)[None])[:, 0]
+    array([[0, 7],
+           [1, 6],
+           [2, 5],
+           [4, 3]])
     """
     cells = values.reshape(-1, 2, grid.ny, grid.nx)
     shape = (4, values.shape[0], 2, grid.ny // 2, grid.nx // 2)
@@ -66,6 +86,13 @@ def from_children(grid, family):
     Returns
     -------
     ndarray, shape (3, nt)
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("", "", "", ""))
+    >>> bool(np.all(from_children(grid, children(grid, grid.t)) == grid.t))
+    True
     """
     cells = np.empty((3, 2, grid.ny, grid.nx), dtype=family.dtype)
     family = family.reshape(4, 3, 2, grid.ny // 2, grid.nx // 2)

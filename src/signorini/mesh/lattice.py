@@ -65,18 +65,41 @@ class Lattice:
 
     @property
     def spacing(self):
-        """Side lengths (hx, hy) of a cell, unit of length."""
+        """Side lengths (hx, hy) of a cell, unit of length.
+
+        Examples
+        --------
+        >>> Lattice(2, 1, (0.0, 0.0), (2.0, 3.0), "falling").spacing
+        (1.0, 3.0)
+        """
         return self.size[0] / self.nx, self.size[1] / self.ny
 
     @property
     def area(self):
-        """Area of each triangle, a number, unit of length squared."""
+        """Area of each triangle, a number, unit of length squared.
+
+        Examples
+        --------
+        The areas of all triangles add up to that of the rectangle:
+
+        >>> lattice = Lattice(2, 3, (0.0, 0.0), (2.0, 3.0), "falling")
+        >>> lattice.area * lattice.number_of_triangles
+        6.0
+        """
         hx, hy = self.spacing
         return 0.5 * hx * hy
 
     @property
     def stretch(self):
-        """The ratio of a triangle's longest edge to the height on it, dimensionless."""
+        """The ratio of a triangle's longest edge to the height on it, dimensionless.
+
+        Examples
+        --------
+        An isosceles right triangle is twice as long as high, and none here is less stretched:
+
+        >>> [Lattice(1, n, (0.0, 0.0), (1.0, 1.0), "falling").stretch for n in (1, 2, 4)]
+        [2.0, 2.5, 4.25]
+        """
         hx, hy = self.spacing
         return hx / hy + hy / hx
 
@@ -102,7 +125,14 @@ class Lattice:
 
     @property
     def p(self):
-        """Vertices, shape (2, number_of_vertices), x running fastest."""
+        """Vertices, shape (2, number_of_vertices), x running fastest.
+
+        Examples
+        --------
+        >>> Lattice(1, 1, (0.0, 0.0), (2.0, 3.0), "falling").p
+        array([[0., 2., 0., 2.],
+               [0., 0., 3., 3.]])
+        """
         return np.stack(np.meshgrid(self.x, self.y)).reshape(2, -1)
 
     def points(self, vertices):
@@ -119,13 +149,28 @@ class Lattice:
 
     @property
     def vertex_numbers(self):
-        """Vertex numbers as an array of rows, shape (ny + 1, nx + 1)."""
+        """Vertex numbers as an array of rows, shape (ny + 1, nx + 1).
+
+        Examples
+        --------
+        >>> Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling").vertex_numbers
+        array([[0, 1, 2],
+               [3, 4, 5]], dtype=int32)
+        """
         numbers = np.arange(self.number_of_vertices, dtype=np.int32)
         return numbers.reshape(self.ny + 1, self.nx + 1)
 
     @property
     def t(self):
-        """Vertices of each triangle, shape (3, nt), the first halves of all cells first."""
+        """Vertices of each triangle, shape (3, nt), the first halves of all cells first.
+
+        Examples
+        --------
+        >>> Lattice(1, 1, (0.0, 0.0), (1.0, 1.0), "rising").t
+        array([[1, 2],
+               [3, 0],
+               [0, 3]], dtype=int32)
+        """
         numbers = self.vertex_numbers
         first, second = self.corners
         return np.stack(
@@ -148,6 +193,12 @@ class Lattice:
         -------
         ndarray, shape (ny, nx)
             A view.
+
+        Examples
+        --------
+        >>> lattice = Lattice(2, 1, (0.0, 0.0), (2.0, 1.0), "falling")
+        >>> lattice.window(lattice.vertex_numbers, (1, 1))
+        array([[4, 5]], dtype=int32)
         """
         i, j = corner
         return rows[j : j + self.ny, i : i + self.nx]

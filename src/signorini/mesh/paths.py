@@ -33,26 +33,63 @@ class Path:
 
     @property
     def closed(self):
-        """Whether the path ends where it starts."""
+        """Whether the path ends where it starts.
+
+        Examples
+        --------
+        >>> triangle = np.array([[0.0, 3.0, 0.0, 0.0], [0.0, 0.0, 4.0, 0.0]])
+        >>> bool(Path(np.array([7, 8, 9, 7]), np.arange(3), triangle).closed)
+        True
+        """
         return self.vertices[0] == self.vertices[-1]
 
     @property
     def lengths(self):
-        """Lengths of the facets, shape (k,), unit of length."""
+        """Lengths of the facets, shape (k,), unit of length.
+
+        Examples
+        --------
+        >>> triangle = np.array([[0.0, 3.0, 0.0, 0.0], [0.0, 0.0, 4.0, 0.0]])
+        >>> Path(np.array([7, 8, 9, 7]), np.arange(3), triangle).lengths
+        array([3., 5., 4.])
+        """
         return np.hypot(*np.diff(self.points))
 
     @property
     def marks(self):
-        """Vertices and midpoints of the facets by turns, shape (2, 2 k + 1)."""
+        """Vertices and midpoints of the facets by turns, shape (2, 2 k + 1).
+
+        Examples
+        --------
+        >>> line = np.array([[0.0, 2.0, 2.0], [0.0, 0.0, 4.0]])
+        >>> Path(np.arange(3), np.arange(2), line).marks
+        array([[0., 1., 2., 2., 2.],
+               [0., 0., 0., 2., 4.]])
+        """
         return _with_means(self.points)
 
     @property
     def arc_length(self):
-        """Arc length of the marks from the start, shape (2 k + 1,), unit of length."""
+        """Arc length of the marks from the start, shape (2 k + 1,), unit of length.
+
+        Examples
+        --------
+        >>> line = np.array([[0.0, 2.0, 2.0], [0.0, 0.0, 4.0]])
+        >>> Path(np.arange(3), np.arange(2), line).arc_length
+        array([0., 1., 2., 4., 6.])
+        """
         return _with_means(np.append(0.0, np.cumsum(self.lengths)))
 
     def reversed(self):
-        """The same piece walked the other way."""
+        """The same piece walked the other way.
+
+        Examples
+        --------
+        >>> line = np.array([[0.0, 2.0, 2.0], [0.0, 0.0, 4.0]])
+        >>> path = Path(np.arange(3), np.arange(2), line)
+        >>> path.reversed().vertices.tolist(), float(path.reversed().arc_length[-1])
+        ([2, 1, 0], 6.0)
+        """
         return Path(self.vertices[::-1], self.facets[::-1], self.points[:, ::-1])
 
 

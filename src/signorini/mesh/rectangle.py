@@ -62,12 +62,28 @@ class Rectangle:
 
     @property
     def uniform(self):
-        """Whether arithmetic describes every level, a `Grid`."""
+        """Whether arithmetic describes every level, a `Grid`.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> Rectangle((0.0, 0.0), (1.0, 1.0), "falling", "per-unit", sides).uniform
+        True
+        >>> Rectangle((0.0, 0.0), (1.0, 1.0), "criss-cross", "per-unit", sides).uniform
+        False
+        """
         altered = self.grade is not None or self.perturb is not None
         return self.diagonal in CORNERS and not altered and not by_formula(self.boundary)
 
     def count_triangles(self, n):
-        """Number of triangles of level n, which is not made; errors as for `counts`."""
+        """Number of triangles of level n, which is not made; errors as for `counts`.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> Rectangle((0.0, 0.0), (1.0, 1.0), "falling", "per-unit", sides).count_triangles(512)
+        524288
+        """
         return math.prod(self.counts(n)) * (4 if self.diagonal == "criss-cross" else 2)
 
     def level(self, n):
@@ -108,6 +124,13 @@ class Rectangle:
         ------
         MeshError
             As `level`, but for the memory.
+
+        Examples
+        --------
+        >>> sides = {"bottom": "contact", "right": "neumann", "top": "dirichlet", "left": "neumann"}
+        >>> grid = Rectangle((0.0, 0.0), (2.0, 1.0), "falling", "per-unit", sides).grid(10**6)
+        >>> grid.nx, grid.ny
+        (2000000, 1000000)
         """
         from signorini.mesh.resolution import check_resolution
 

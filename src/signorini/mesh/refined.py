@@ -47,6 +47,13 @@ class Refined:
         ------
         MeshError
             If n is no power of two times the root's level.
+
+        Examples
+        --------
+        >>> from types import SimpleNamespace
+        >>> domain = Refined(SimpleNamespace(number_of_triangles=2), coarsest=1, width=1.0)
+        >>> [domain.count_triangles(n) for n in (1, 2, 1024)]
+        [2, 8, 2097152]
         """
         ratio, rest = divmod(n, self.coarsest)
         is_power_of_two = ratio >= 1 and ratio & (ratio - 1) == 0
@@ -64,6 +71,14 @@ class Refined:
         ------
         MeshError
             If n is no power of two times the root's level, or the memory is too small.
+
+        Examples
+        --------
+        >>> from signorini.mesh.triangulation import Triangulation
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> domain = Refined(Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends), 1, 1.0)
+        >>> domain.level(4).number_of_triangles, float(domain.level(4).area.sum())
+        (16, 0.5)
         """
         triangles = self.count_triangles(n)
         if n not in self._levels:
@@ -82,5 +97,11 @@ class Refined:
         return replace(finer, ends=finer.ends | ends)
 
     def mesh_size(self, n):
-        """The mesh width h of level n: half the root's for each doubling of n; unit of length."""
+        """The mesh width h of level n: half the root's for each doubling of n; unit of length.
+
+        Examples
+        --------
+        >>> [Refined(None, coarsest=2, width=0.5).mesh_size(n) for n in (2, 4, 8)]
+        [0.5, 0.25, 0.125]
+        """
         return self.width * self.coarsest / n

@@ -33,7 +33,15 @@ class Strip(Grid):
 
     @property
     def spacing(self):
-        """Side lengths (hx, hy) of a cell, unit of length."""
+        """Side lengths (hx, hy) of a cell, unit of length.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(3, 3, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> strip_of(grid, first=1, last=2).spacing == grid.spacing
+        True
+        """
         return self.whole.spacing
 
     @cached_property
@@ -52,13 +60,30 @@ class Strip(Grid):
         return self.first if side == "bottom" else self.first + self.ny
 
     def vertices_of_whole(self):
-        """The numbers of the vertices in the whole grid."""
+        """The numbers of the vertices in the whole grid.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(2, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> strip_of(grid, first=1, last=2).vertices_of_whole()
+        array([3, 4, 5, 6, 7, 8])
+        """
         return self.first * (self.nx + 1) + np.arange(self.number_of_vertices)
 
     def facets_of_whole(self):
         """The numbers of the facets in the whole grid.
 
         Only those along the upper cut stand elsewhere in their row: above them there are more.
+
+        Examples
+        --------
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(2, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> strip = strip_of(grid, first=1, last=3)
+        >>> ends = strip.vertices_of_whole()[strip.facets]
+        >>> bool(np.all(ends == grid.facets[:, strip.facets_of_whole()]))
+        True
         """
         offset = self.first * self._edges.row_length
         numbers = offset + np.arange(self.number_of_facets)
@@ -68,7 +93,15 @@ class Strip(Grid):
 
 
 def strip_of(grid, first, last):
-    """The rows of cells of a grid from `first` to before `last`, as a `Strip`."""
+    """The rows of cells of a grid from `first` to before `last`, as a `Strip`.
+
+    Examples
+    --------
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(2, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> [strip_of(grid, k, k + 2).y.tolist() for k in (0, 2)]
+    [[0.0, 0.25, 0.5], [0.5, 0.75, 1.0]]
+    """
     low, high = float(grid.y[first]), float(grid.y[last])
     origin, size = (grid.origin[0], low), (grid.size[0], high - low)
     shape = grid.nx, last - first

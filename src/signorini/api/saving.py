@@ -1,0 +1,38 @@
+"""Figures, written to files where a program asks for it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from signorini.exceptions import SceneError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def saved(figure: "Figure", path: str | Path | None) -> "Figure":
+    """The figure, written where a path is given.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : str, Path or None
+        Ending in .pdf or .png.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    SceneError
+        If the path ends otherwise.
+    """
+    if path is not None:
+        from signorini.figures.style import FORMATS, save_figure
+
+        if Path(path).suffix not in FORMATS:
+            raise SceneError(
+                f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"
+            )
+        save_figure(figure, path, sealed=False)
+    return figure

@@ -15,8 +15,9 @@ NAME = "<mi>(?:log|sin|cos|cot)</mi>"
 RELATION = "<mo>(?:&lt;|&gt;|[=≤≥,])</mo>"
 # What TeX does by itself, as replacements in MathML.
 FINISH = {
+    '<mtable class="ams-align">': '<mtable class="ams-align" displaystyle="true">',
     # bars do not stretch over indices, and have no space around them
-    r'<mo(?: stretchy="false"| class="mathopen")?>([|‖/])</mo>': (
+    r'<mo(?: stretchy="false"| class="mathopen")?>([|‖/⟨⟩])</mo>': (
         r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>'
     ),
     "<mo>'</mo>": '<mo lspace="0" rspace="0">′</mo>',

@@ -24,6 +24,7 @@ INLINE = re.compile(r"\$([^$]+)\$")
 ESCAPED = re.compile(r"\\[^A-Za-z]")
 EMPHASIS = re.compile(r"(?<![A-Za-z0-9])_|\*")
 TAG = re.compile(r"<[A-Za-z/!]")
+ITEM = re.compile(r"^ *(?:[-+*>#]|\d+\.) ", re.M)  # and what it would take for a list
 
 
 def texts():
@@ -94,6 +95,7 @@ def test_a_displayed_formula_is_a_paragraph(name):
     paragraphs = [part for part in TEXTS[name].split("\n\n") if "$$" in part]
     assert [part for part in paragraphs if part.count("$$") != 2] == []
     assert [part for part in paragraphs if not part.strip().startswith("$$")] == []
+    assert [part for part in paragraphs if ITEM.search(part)] == []
 
 
 @pytest.mark.parametrize("name", TEXTS)

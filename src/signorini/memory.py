@@ -25,6 +25,10 @@ def check_memory(triangles, bytes_each, what):
     ------
     MeshError
         If there is less memory, in the machine or allowed to this process.
+
+    Examples
+    --------
+    >>> check_memory(1000, MESH, "n = 8")
     """
     if not fits(triangles, bytes_each):
         raise MeshError(

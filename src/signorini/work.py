@@ -69,6 +69,14 @@ def count(**done):
     ----------
     **done : int
         By the names of `Work`.
+
+    Examples
+    --------
+    >>> with counting() as work:
+    ...     count(steps=2)
+    ...     count(steps=1)
+    >>> work.steps
+    3
     """
     work = _work.get()
     if work is not None:

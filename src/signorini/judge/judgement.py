@@ -90,12 +90,29 @@ class Judgement:
 
         The largest force at the dofs `decided` (ndarray of bool, shape (nc,)), or else
         `force_scale`.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> from signorini.judge import judge
+        >>> truth = judge(discretize(load_scene("config/scenes/paper.yaml"), "P1", 4))
+        >>> bool(truth.force(truth.active) == np.abs(truth.multiplier).max())
+        True
         """
         size = np.max(np.abs(self.multiplier), where=decided, initial=0)
         return max(size, SMALLEST_FORCE_SCALE * self.force_scale) if size else self.force_scale
 
     def rounding(self, decided):
-        """One rounding of the terms of contact forces to double precision, relative to `force`."""
+        """One rounding of the terms of contact forces to double precision, relative to `force`.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> from signorini.judge import judge
+        >>> truth = judge(discretize(load_scene("config/scenes/paper.yaml"), "P1", 4))
+        >>> truth.rounding(truth.active) < 1e-14
+        True
+        """
         return DOUBLE * ratio(self.force_scale, self.force(decided))
 
     def multiplier_limit(self, decided):

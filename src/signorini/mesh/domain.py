@@ -167,6 +167,17 @@ def read_domain(path):
     ------
     StorageError
         If the file is missing, truncated, altered, or not a domain.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from signorini import load_scene
+    >>> domain = load_scene("config/scenes/paper.yaml").problem_statement.triangulations
+    >>> with TemporaryDirectory() as folder:
+    ...     write_domain(f"{folder}/mesh.npz", domain)
+    ...     again = read_domain(f"{folder}/mesh.npz")
+    >>> again.boundary == domain.boundary, again.level(4).same_as(domain.level(4))
+    (True, True)
     """
     arrays = read_npz(path, kind="domain")
     fields = json.loads(str(arrays["specification"]))
@@ -199,6 +210,11 @@ def read_curves(section):
     ------
     MeshError, FormulaError
         Naming the part.
+
+    Examples
+    --------
+    >>> read_curves({"rim": {"center": [0, 0], "radius": 1}})
+    {'rim': Circle(center=(0.0, 0.0), radius=1.0)}
     """
     if not section:  # no formula is read where there is none
         return {}

@@ -27,6 +27,12 @@ def corner_array(loop, name):
     ------
     MeshError
         Not 3 to `MAX_CORNERS` pairs of finite numbers.
+
+    Examples
+    --------
+    >>> corner_array([[0, 0], [1, 0], [0, 1]], "domain.corners")
+    array([[0., 1., 0.],
+           [0., 0., 1.]])
     """
     try:
         corners = np.array([[float(x), float(y)] for x, y in loop]).reshape(-1, 2).T

@@ -88,12 +88,26 @@ def vertex_parents(parent):
 
 
 def children(values):
-    """Values on the four children of every triangle, a copy; see `Grid.children`."""
+    """Values on the four children of every triangle, a copy; see `Grid.children`.
+
+    Examples
+    --------
+    >>> children(np.arange(8.0)[None]).shape
+    (4, 1, 2)
+    """
     return values.reshape(values.shape[0], 4, -1).transpose(1, 0, 2).copy()
 
 
 def from_children(family):
-    """Undo `children`."""
+    """Undo `children`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> values = np.arange(24.0).reshape(3, 8)
+    >>> bool(np.all(from_children(children(values)) == values))
+    True
+    """
     return family.transpose(1, 0, 2).reshape(family.shape[1], -1)
 
 

@@ -16,6 +16,11 @@ def is_certified(document):
     Returns
     -------
     bool
+
+    Examples
+    --------
+    >>> is_certified({"truth": {"kind": "certificate"}, "certificate": False})
+    True
     """
     return document["truth"]["kind"] == "certificate" or document["certificate"]
 
@@ -30,6 +35,13 @@ def is_certifiable(document):
     Returns
     -------
     bool
+
+    Examples
+    --------
+    >>> from signorini.scene.read import read_scene
+    >>> names = ("l-shape", "annulus")
+    >>> [is_certifiable(read_scene(f"config/scenes/{name}.yaml").document) for name in names]
+    [True, False]
     """
     return not document["domain"].get("boundary_shape")
 

@@ -75,6 +75,13 @@ def asked_memory(statement, element, n, route, attempt=1):
     Returns
     -------
     int
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+    >>> [asked_memory(statement, "CR", 64, "auto", attempt) for attempt in (1, 2)]
+    [500, 1000]
     """
     _, size = _cost_of(statement, element, n, route)
     least = _UNCOUNTED_MB if statement.domain.get("kind") == "mesh" else _LEAST_MB
@@ -93,6 +100,13 @@ def asked_minutes(statement, element, n, route, attempt=1):
     Returns
     -------
     int
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+    >>> asked_minutes(statement, "CR", 64, "auto")
+    11
     """
     seconds, _ = _cost_of(statement, element, n, route)
     return (_LEAST_MINUTES + math.ceil(_MARGIN * seconds / 60)) * 2 ** (attempt - 1)

@@ -93,6 +93,14 @@ def scene_of_mapping(mapping, name, folder):
     ------
     SceneError, FormulaError, MeshError
         As `load_scene`.
+
+    Examples
+    --------
+    >>> sides = dict.fromkeys(("bottom", "right", "top", "left"), "dirichlet")
+    >>> document = {"domain": {"kind": "rectangle"}, "boundary": sides, "data": {"f": 1}}
+    >>> rest = {"levels": [2, 4], "truth": {"kind": "none"}}
+    >>> scene_of_mapping(document | rest, "membrane", ".").elements
+    ['P1', 'CR']
     """
     scene = read_mapping(mapping, name, folder)
     scene.check()
@@ -134,6 +142,14 @@ def scene_of_point(scene, point):
     ------
     SceneError, FormulaError, MeshError
         One line that names the file, the point, the field, the value and the remedy.
+
+    Examples
+    --------
+    >>> from signorini.scene.sweep import sweep_points
+    >>> scene = read_scene("config/scenes/punch-widths.yaml")
+    >>> point = sweep_points(scene.document["sweep"])[0]
+    >>> point.told, scene_of_point(scene, point).levels == scene.levels
+    ('truth.parameters.half_width = 0.1', True)
     """
     written = with_values(scene.written, point.values)
     try:
@@ -154,13 +170,24 @@ def check_points(scene):
     ------
     SceneError, FormulaError, MeshError
         As `scene_of_point`.
+
+    Examples
+    --------
+    >>> check_points(read_scene("config/scenes/punch-widths.yaml"))
     """
     for point in sweep_points(scene.document.get("sweep", {})) if scene.written else ():
         scene_of_point(scene, point)
 
 
 def plain(value):
-    """A value as YAML would give it: tuples and arrays as lists, numbers of NumPy as Python's."""
+    """A value as YAML would give it: tuples and arrays as lists, numbers of NumPy as Python's.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> plain({"levels": np.array([2, 4]), 3: (1.5, "x")})
+    {'levels': [2, 4], '3': [1.5, 'x']}
+    """
     if isinstance(value, dict):
         return {str(key): plain(entry) for key, entry in value.items()}
     if hasattr(value, "tolist"):

@@ -91,6 +91,12 @@ class Scene:
         ------
         SceneError, MeshError, FormulaError
             As `discretize`.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/paper.yaml").problem("CR", 8)
+        <Problem: CR, n = 8: 208 dofs, 8 in contact>
         """
         from signorini.fem.problem import discretize
 
@@ -146,12 +152,26 @@ class Scene:
 
     @property
     def levels(self):
-        """Levels n = 1/h, increasing."""
+        """Levels n = 1/h, increasing.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/paper.yaml").levels[-1]
+        64
+        """
         return self.document["levels"]
 
     @property
     def truth(self):
-        """The section ``truth``."""
+        """The section ``truth``.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/paper.yaml").truth["n"]
+        512
+        """
         return self.document["truth"]
 
 
@@ -167,6 +187,14 @@ def naming(path):
     ------
     SignoriniError
         Of the kind that was raised in the block.
+
+    Examples
+    --------
+    >>> from signorini.exceptions import SceneError
+    >>> with naming("my.yaml"):
+    ...     raise SceneError("levels: missing")
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: my.yaml: levels: missing
     """
     try:
         yield

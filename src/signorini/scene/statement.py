@@ -61,6 +61,13 @@ class ProblemStatement:
         """Whether more can be wrong than a document shows.
 
         That is the domain, names in a mesh file, and an exact truth.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import read_scene
+        >>> scenes = [read_scene(f"config/scenes/{name}.yaml") for name in ("paper", "l-shape")]
+        >>> [scene.problem_statement.needs_mesh for scene in scenes]
+        [False, True]
         """
         is_rectangle = self.domain.get("kind", "rectangle") == "rectangle"
         return not is_rectangle or by_formula(self.boundary) or self.exact is not None

@@ -41,7 +41,13 @@ class Point:
 
     @property
     def told(self):
-        """The values as messages tell them."""
+        """The values as messages tell them.
+
+        Examples
+        --------
+        >>> Point("half_width=0.5", {"truth.parameters.half_width": 0.5}).told
+        'truth.parameters.half_width = 0.5'
+        """
         return ", ".join(f"{key} = {shown(value)}" for key, value in self.values.items())
 
 

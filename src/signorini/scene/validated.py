@@ -69,6 +69,17 @@ def read_validated(path):
     ------
     StorageError
         If the file is missing, altered, or not a validated scene.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from signorini import load_scene
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> with TemporaryDirectory() as folder:
+    ...     write_validated(f"{folder}/scene.json", scene)
+    ...     again = read_validated(f"{folder}/scene.json")
+    >>> again.document == scene.document
+    True
     """
     values = read_json(path)
     if not (isinstance(values, dict) and {*values} - {"written"} == {*_KEYS}):

@@ -19,6 +19,11 @@ def check_values(scene):
     ------
     FormulaError, SceneError, MeshError
         Naming the file, the datum, its value, the point and the remedy.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> check_values(load_scene("config/scenes/paper.yaml"))
     """
     with naming(scene.source):
         statement = scene.problem_statement

@@ -31,7 +31,15 @@ class Attempt:
 
     @property
     def applies(self):
-        """Whether the route takes such a problem at all."""
+        """Whether the route takes such a problem at all.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> problem = discretize(load_scene("config/scenes/l-shape.yaml"), "P1", 4)
+        >>> attempt(problem, "fourier").applies, attempt(problem, "direct").applies
+        (False, True)
+        """
         return not isinstance(self.error, NotApplicableError)
 
     def result(self):

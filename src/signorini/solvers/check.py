@@ -18,6 +18,14 @@ def check_data(problem):
     ------
     SolverError
         Naming what is wrong.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 2)
+    >>> check_data(problem.with_data(b=problem.b * np.nan))
+    Traceback (most recent call last):
+    signorini.exceptions.SolverError: problem.b: entry 0 is nan; all data must be finite
     """
     for name in ("b", "lower", "fixed_values"):
         values = getattr(problem, name)
@@ -126,6 +134,15 @@ def check_solvable(problem):
     ------
     SolverError
         If a constant may be added to u there, once or without end.
+
+    Examples
+    --------
+    Nothing keeps a load that pulls from lifting the body off:
+
+    >>> import signorini
+    >>> check_solvable(signorini.problem(signorini.rectangle(4), f=1, contact="bottom"))
+    Traceback (most recent call last):
+    signorini.exceptions.SolverError: unbounded: no dirichlet part and int f + int g = ...
     """
     for part in _floating_parts(problem):
         load = problem.b if part is None else problem.b[part]

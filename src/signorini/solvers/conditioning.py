@@ -52,7 +52,16 @@ def is_nested(mesh):
 
 
 def accuracy_loss_causes(problem):
-    """What in a problem costs digits: cell shapes, the coefficient; and the remedy; a message."""
+    """What in a problem costs digits: cell shapes, the coefficient; and the remedy; a message.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> mesh = signorini.rectangle(4, size=(100, 1), cells="per-side")
+    >>> problem = signorini.problem(mesh, f=1, dirichlet=["top"], contact="bottom")
+    >>> accuracy_loss_causes(problem)
+    'there are cells 1e+02 times as long as high; stretch cells less'
+    """
     reasons = []
     if problem.mesh.stretch > STRETCHED:
         reasons.append(

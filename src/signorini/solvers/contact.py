@@ -70,7 +70,13 @@ class DenseContact:
         self.size, self.band = len(S), len(S) * np.finfo(float).eps
 
     def diagonal(self):
-        """Diagonal of `S`, shape (n,)."""
+        """Diagonal of `S`, shape (n,).
+
+        Examples
+        --------
+        >>> DenseContact(np.array([[2.0, -1.0], [-1.0, 3.0]])).diagonal()
+        array([2., 3.])
+        """
         return self.S.diagonal()
 
     def apply(self, w):
@@ -87,6 +93,11 @@ class DenseContact:
     def apply_abs(self, w):
         """Product ``|S| |w|``, shape (n,), or a bound of that order: the size of the terms of ``S
         w``.
+
+        Examples
+        --------
+        >>> DenseContact(np.array([[2.0, -1.0], [-1.0, 2.0]])).apply_abs(np.array([1.0, -1.0]))
+        array([3., 3.])
         """
         return self.absS @ np.abs(w)
 

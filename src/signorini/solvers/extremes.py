@@ -7,7 +7,13 @@ import numpy as np
 
 
 def alone(numbers):
-    """The maxima of numbers where there is one process: the numbers."""
+    """The maxima of numbers where there is one process: the numbers.
+
+    Examples
+    --------
+    >>> alone([1.0, 2.0])
+    [1.0, 2.0]
+    """
     return numbers
 
 

@@ -36,7 +36,14 @@ class Level:
         return bool(self.diagonal.max() > _EXACT * self.diagonal.min())
 
     def product(self, x):
-        """A x; from differences of x where entries of A differ by many powers of ten."""
+        """A x; from differences of x where entries of A differ by many powers of ten.
+
+        Examples
+        --------
+        >>> from scipy.sparse import csr_array
+        >>> Level(csr_array([[1.0, -1.0], [-1.0, 1.0]])).product(np.array([3.0, 5.0]))
+        array([-2.,  2.])
+        """
         return -residual(self.A, np.zeros_like(x), x, self.sums) if self._exact else self.A @ x
 
     @cached_property
@@ -55,5 +62,13 @@ class Level:
         return self.A.diagonal()
 
     def coarse_mask(self, mask):
-        """The unknowns of the coarser level that are at least half made of marked ones; masks."""
+        """The unknowns of the coarser level that are at least half made of marked ones; masks.
+
+        Examples
+        --------
+        >>> from scipy.sparse import csr_array
+        >>> level = Level(csr_array(np.eye(3)), csr_array([[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]]))
+        >>> level.coarse_mask(np.array([True, False, False]))
+        array([ True, False])
+        """
         return self.R @ mask.astype(float) >= HALF

@@ -108,6 +108,14 @@ def levels_and_obstacles(problem):
     ------
     MeshError
         If the memory is too small, or the meshes do not nest.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 64)
+    >>> levels, _ = levels_and_obstacles(problem)
+    >>> [level.A.shape[0] for level in levels]
+    [4225, 1089, 289, 81]
     """
     check_memory(
         problem.mesh.number_of_triangles,

@@ -38,6 +38,16 @@ def violation(problem, u, maxima=alone):
         Dimensionless, the same on every process; infinite where u is not finite.
     multiplier : ndarray, shape (c,)
         A u - b at the contact dofs, or at the own ones of the share.
+
+    Examples
+    --------
+    Half a solution is none:
+
+    >>> from signorini import discretize, load_scene, solve
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 8)
+    >>> u = solve(problem).u
+    >>> violation(problem, u)[0] < 1e-14, violation(problem, 0.5 * u)[0] > 0.1
+    (True, True)
     """
     low, high = span(u, problem.fixed_values, maxima=maxima)
     if not np.isfinite([low, high]).all():
@@ -105,6 +115,16 @@ def accuracy_of(result, constant, maxima=alone):
     -------
     float
         Dimensionless.
+
+    Examples
+    --------
+    u varies by 1 beside a constant of a million, whose last bit is what it is known to:
+
+    >>> from signorini.solvers.route_result import RouteResult
+    >>> u, nothing, sure = np.array([0.0, 1.0]), np.zeros(1), np.array([False])
+    >>> result = RouteResult(u, sure, 1, 1e-16, nothing, 0.0, sure)
+    >>> [accuracy_of(result, constant) > 1e-11 for constant in (0.0, 1e6)]
+    [False, True]
     """
     low, high = span(result.u, maxima=maxima)
     variation = (high - low) or max(abs(low), abs(high))
@@ -126,6 +146,16 @@ def proved_status(residual, accuracy, result):
     Returns
     -------
     {"solved", "inaccurate", "failed"}
+
+    Examples
+    --------
+    An accuracy of 2e-11 is enough, but not beside a dof whose side is not sure:
+
+    >>> from signorini.solvers.route_result import RouteResult
+    >>> nothing, sure = np.zeros(1), np.array([False])
+    >>> result = RouteResult(nothing, sure, 1, 2e-11, nothing, 0.0, undecided=sure)
+    >>> [proved_status(0.0, 2e-11, result._replace(undecided=where)) for where in (sure, ~sure)]
+    ['solved', 'inaccurate']
     """
     margin = _UNDECIDED_MARGIN if result.undecided.any() else 1.0
     return status_of(residual, margin * accuracy, result.multiplier_accuracy)

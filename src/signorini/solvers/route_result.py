@@ -173,6 +173,15 @@ def dofs_to_bind(u, active, gap, errors):
     Returns
     -------
     ndarray of bool, shape (nc,)
+
+    Examples
+    --------
+    A gap of a rounding of u counts as none:
+
+    >>> u, gap = np.array([0.0, 1.0]), np.array([1e-16, 0.5])
+    >>> errors = ErrorEstimates(1e-16, 0.0, np.full(2, 1e-15), *[np.zeros(2)] * 3, 1.0)
+    >>> dofs_to_bind(u, np.array([False, False]), gap, errors)
+    array([ True, False])
     """
     variation = variation_of(u)
     not_binding = ~active & (gap <= errors.gaps)
@@ -249,6 +258,15 @@ def more_accurate(first, second):
     Returns
     -------
     RouteResult
+
+    Examples
+    --------
+    >>> nothing, sure = np.zeros(1), np.array([False])
+    >>> first = RouteResult(nothing, sure, 1, 1e-9, nothing, 0.0, sure)
+    >>> more_accurate(first, first._replace(accuracy=1e-8)).accuracy
+    1e-09
+    >>> more_accurate(first, first._replace(accuracy=1e-12)).accuracy
+    1e-12
     """
     if first is None or max(second.accuracy, second.multiplier_accuracy) <= SOLVED:
         return second

@@ -46,6 +46,12 @@ def choose_route(problem, method, accuracy="full"):
         If the method is unknown, or none can hold the problem.
     NotApplicableError
         If the method does not apply.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> choose_route(discretize(load_scene("config/scenes/paper.yaml"), "CR", 8), "auto")
+    ('fourier', 'uniform grid, equal conditions beside the contact side')
     """
     if method not in ("auto", *ALL_METHODS):
         raise SolverError(

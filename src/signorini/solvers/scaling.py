@@ -17,6 +17,13 @@ _NEARLY_CONSTANT = 2.0**-6  # of their size: values that vary by less are counte
 def exponent_of(problem, maxima=alone):
     """The power of two that brings the data to order one; exact, so results scale with the data bit
     for bit.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> exponent_of(problem.scaled(7)) - exponent_of(problem)
+    7
     """
     sizes = [largest(values) for values in (problem.b, problem.lower, problem.fixed_values)]
     size = max(maxima(sizes))
@@ -40,6 +47,17 @@ def resting_at(problem, maxima=alone):
     Returns
     -------
     float or None
+
+    Examples
+    --------
+    No load, and held at 2 above the obstacle 0:
+
+    >>> import signorini
+    >>> sides = {"dirichlet": {"top": 2}, "contact": "bottom"}
+    >>> resting_at(signorini.problem(signorini.rectangle(4), f=0, **sides))
+    2.0
+    >>> resting_at(signorini.problem(signorini.rectangle(4), f=1, **sides)) is None
+    True
     """
     low, high = span(problem.fixed_values, maxima=maxima)
     loads, known = np.count_nonzero(problem.b), np.count_nonzero(problem.b[problem.fixed])
@@ -61,6 +79,12 @@ def at_rest(b, obstacle, value):
     Returns
     -------
     RouteResult
+
+    Examples
+    --------
+    >>> result = at_rest(np.zeros(3), obstacle=np.array([1.0, 2.0]), value=2.0)
+    >>> result.u.tolist(), result.active.tolist()
+    ([2.0, 2.0, 2.0], [False, True])
     """
     touching, nothing = obstacle == value, np.zeros_like(obstacle)
     return RouteResult(np.full_like(b, value), touching, 0, 0.0, nothing, 0.0, touching)
@@ -88,6 +112,17 @@ def solve_from_constant(problem, find, guess=None, maxima=alone):
         By how much its u is less.
     found : tuple
         What `find` found.
+
+    Examples
+    --------
+    Held at a million, on an obstacle of that height:
+
+    >>> import signorini
+    >>> from signorini.solvers.direct import solve_direct
+    >>> data = {"f": "sin(6*x)", "obstacle": 1e6, "dirichlet": {"top": 1e6}, "contact": "bottom"}
+    >>> problem = signorini.problem(signorini.rectangle(4), **data)
+    >>> solve_from_constant(problem, lambda shifted, guess: (solve_direct(shifted, guess),))[1]
+    1000000.0
     """
     constant = _near(problem.fixed_values, problem.lower, maxima=maxima)
     shifted = problem.shifted(constant)
@@ -134,6 +169,14 @@ def add_constant(problem, deviation, constant, active):
     Returns
     -------
     ndarray, shape (m,)
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 2)
+    >>> u = add_constant(problem, np.zeros(problem.b.size), 1.0, np.zeros(3, dtype=bool))
+    >>> bool(np.all(u[problem.fixed] == problem.fixed_values)), float(u[problem.contact][0])
+    (True, 1.0)
     """
     if not constant:
         return deviation

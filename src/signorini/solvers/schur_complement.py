@@ -106,6 +106,17 @@ class SchurComplement:
         -------
         ndarray, shape (ndof,) or (ndof, k)
             Unit of u.
+
+        Examples
+        --------
+        All dofs follow from those in contact:
+
+        >>> from signorini import discretize, load_scene, solve
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 8)
+        >>> u = solve(problem).u
+        >>> found = SchurComplement(problem).back_substitute(problem.b, u[problem.contact])
+        >>> bool(np.abs(found - u).max() < 1e-14)
+        True
         """
         condensed_load = self.condense(load) if condensed_load is None else condensed_load
         rhs = load[self.order]

@@ -81,6 +81,17 @@ class Solution:
         """Contact force on each contact dof, an integral of k du/dnu, (nc,), unit of k u.
 
         The `multiplier` and the threshold's part.
+
+        Examples
+        --------
+        Forces on the contact part and the Dirichlet part balance a load whose integral is 0:
+
+        >>> from signorini import discretize, load_scene, solve
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 16)
+        >>> solution = solve(problem)
+        >>> held = (problem.A @ solution.u - problem.b)[problem.fixed]
+        >>> bool(abs(solution.force.sum() + held.sum()) < 1e-14)
+        True
         """
         threshold = self.problem.threshold
         return self.multiplier if threshold is None else self.multiplier + threshold
@@ -91,6 +102,15 @@ class Solution:
         length.
 
         The `force` over `Problem.contact_lengths`; it belongs to `Problem.contact_points`.
+
+        Examples
+        --------
+        k du/dnu = 1 of u = 1 - y, where it is held at y = 0 by the obstacle 1:
+
+        >>> from signorini import discretize, load_scene, solve
+        >>> solution = solve(discretize(load_scene("config/scenes/patch.yaml"), "CR", 4))
+        >>> solution.flux.round(12)
+        array([1., 1., 1., 1.])
         """
         return self.force / self.problem.contact_lengths
 

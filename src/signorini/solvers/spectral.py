@@ -77,7 +77,18 @@ class SpectralContact:
         return np.full(self.size, self.symbol.mean())
 
     def apply(self, w):
-        """S w for one vector or the rows of an array."""
+        """S w for one vector or the rows of an array.
+
+        Examples
+        --------
+        Constants are the kernel of the second difference:
+
+        >>> from signorini.solvers.transforms import midpoint_cosines
+        >>> basis = midpoint_cosines(4)
+        >>> S = SpectralContact(basis, basis.eigenvalues)
+        >>> [(S.apply(w).round(12) + 0.0).tolist() for w in (np.ones(4), np.eye(4)[1])]
+        [[0.0, 0.0, 0.0, 0.0], [-1.0, 2.0, -1.0, 0.0]]
+        """
         count(inner=w.size // self.size)
         return self.basis.mass * self.basis.backward(self.symbol * self.basis.forward(w))
 

@@ -146,6 +146,18 @@ def read_solution(path):
     ------
     StorageError
         If the file is missing, truncated, altered, or not a solution.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> solution = solve_level(load_scene("config/scenes/paper.yaml"), "CR", 8)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_stored(f"{folder}/u.npz", solution)
+    ...     again = read_solution(f"{folder}/u.npz")
+    >>> bool(np.all(again.u == solution.u)), again.residual == solution.residual
+    (True, True)
     """
     arrays = read_npz(path, kind="solution")
     return StoredSolution(
@@ -170,6 +182,15 @@ def mesh_of(domain, solution):
     MeshError
         If the solution cannot be one on this domain: another mesh width, number of unknowns, or
         contact part.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> mesh = mesh_of(scene.problem_statement.triangulations, solve_level(scene, "CR", 8))
+    >>> mesh.number_of_triangles
+    128
     """
     mesh = domain.level(solution.n)
     element = find_element(solution.element)

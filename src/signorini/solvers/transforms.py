@@ -37,7 +37,13 @@ class Basis:
 
     @property
     def weighted(self):
-        """Whether any weight differs from one."""
+        """Whether any weight differs from one.
+
+        Examples
+        --------
+        >>> vertex_cosines(4).weighted, midpoint_cosines(4).weighted
+        (True, False)
+        """
         return bool(np.any(self.mass != 1.0))
 
 

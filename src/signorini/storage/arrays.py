@@ -59,6 +59,14 @@ def read_npz(path, kind):
     ------
     StorageError
         If the file is missing, truncated, altered, holds Python objects, or is of another kind.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     write_npz(f"{folder}/a.npz", kind="solution", u=[0.5, 2.0])
+    ...     read_npz(f"{folder}/a.npz", kind="solution")["u"]
+    array([0.5, 2. ])
     """
     try:
         with zipfile.ZipFile(path) as archive:

@@ -33,6 +33,20 @@ def replacing(path, mode="w", **options):
     ------
     StorageError
         If the folder cannot be written or the disk is full; `path` is then as it was.
+
+    Examples
+    --------
+    A block that fails leaves nothing:
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     try:
+    ...         with replacing(Path(folder, "a.txt")) as stream:
+    ...             _ = stream.write("half")
+    ...             raise KeyboardInterrupt
+    ...     except KeyboardInterrupt:
+    ...         print(os.listdir(folder))
+    []
     """
     path = Path(path)
     temporary = None
@@ -84,7 +98,13 @@ def sealing(path, mode="w", **options):
 
 
 def digest_file(path):
-    """Where the digest of a file is kept."""
+    """Where the digest of a file is kept.
+
+    Examples
+    --------
+    >>> digest_file("results/errors.csv").name
+    '.errors.csv.sha256'
+    """
     return Path(path).with_name(f".{Path(path).name}.sha256")
 
 
@@ -110,7 +130,13 @@ def read_sealed(path):
 
 
 def missing(path):
-    """The `StorageError` of a file that is not there."""
+    """The `StorageError` of a file that is not there.
+
+    Examples
+    --------
+    >>> str(missing("results/none.csv"))
+    'results/none.csv: there is no such file; make it first, or correct the name'
+    """
     return StorageError(f"{path}: there is no such file; make it first, or correct the name")
 
 

@@ -53,6 +53,14 @@ def read_csv(path, numbers=(), every=None):
     ------
     StorageError
         If the file is missing, truncated, altered, or lacks a row.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     write_csv(f"{folder}/a.csv", [{"n": 2, "l2": 0.5}, {"n": 4, "l2": 0.125}])
+    ...     [row["l2"] for row in read_csv(f"{folder}/a.csv", numbers=["l2"])]
+    [0.5, 0.125]
     """
     return _parsed(path, read_sealed(path), numbers, every or {})
 

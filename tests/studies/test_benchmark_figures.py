@@ -89,3 +89,20 @@ def test_same_numbers_same_bytes(figure, name, tmp_path):
     for k, found in enumerate((figure[name], again)):
         save_figure(found, tmp_path / f"{k}.pdf")
     assert (tmp_path / "0.pdf").read_bytes() == (tmp_path / "1.pdf").read_bytes()
+
+
+def test_routes_and_elements_of_the_growth_are_told_apart_without_colour(figure):
+    for axes in figure["growth"].axes:
+        looks = [(line.get_marker(), line.get_markerfacecolor()) for line in axes.lines]
+        assert len(set(looks)) == len(looks)
+
+
+@pytest.mark.parametrize("name", ["growth", "dofs"])
+def test_unknowns_have_several_numbers_and_none_lies_over_another(figure, name):
+    renderer = FigureCanvasAgg(figure[name]).get_renderer()
+    for axes in figure[name].axes[-2:]:
+        figure[name].draw(renderer)
+        numbers = [text for text in axes.get_xticklabels() if text.get_text()]
+        boxes = [text.get_window_extent(renderer) for text in numbers]
+        assert 2 <= len(boxes) <= 4
+        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))

@@ -7,6 +7,7 @@ from signorini.figures.benchmark_style import (
     TITLES,
     add_key,
     fit_logarithmic,
+    number_decades,
     scenes_of,
     style_of_rough,
     style_of_series,
@@ -18,6 +19,7 @@ MEGABYTE = 1e6
 QUANTITIES = {"total": ("seconds", 1.0), "memory": ("megabytes", MEGABYTE)}  # name and unit
 _LEAST = 1e5  # bytes: what is less is round-off of the allocator
 _MARGIN = 0.14
+_NUMBERS = 4  # at the axis of unknowns
 _FEWEST = 1000  # unknowns: what fewer need is that of modules
 
 
@@ -91,7 +93,7 @@ def _name_ends(axes, ends, norm):
         axes.annotate(
             f"1/{n:g}",
             (row["total"], row[norm]),
-            fontsize=5.5,
+            fontsize=6,
             color=GREY,
             xytext=(-2.5, -1.5),
             textcoords="offset points",
@@ -127,6 +129,7 @@ def draw_growth(series):
         panels["memory", scene].set_xlabel("unknowns")
     for axes in panels.values():
         fit_logarithmic(axes, _MARGIN)
+        number_decades(axes.xaxis, _NUMBERS)
     add_key(figure, panels["total", scenes[0]], columns=4)
     return figure
 
@@ -160,6 +163,7 @@ def draw_dofs(series):
             panels[norm, scene].plot(dofs, errors, **style)
     for axes in panels.values():
         axes.set(xscale="log", yscale="log")
+        number_decades(axes.xaxis, _NUMBERS)
         axes.minorticks_off()
     for scene in scenes:
         panels["h1", scene].set_xlabel("unknowns")

@@ -15,8 +15,9 @@ SMALL = STYLE | {
     "legend.fontsize": 6,
 }
 TITLES = {norm: NORMS[norm].axis for norm in PAPER_NORMS}  # of the norms that are drawn
-# Of the routes, in the order of their appearance.
+# Of the routes, in the order of their appearance; None is the element's own marker.
 LINES = ("-", (0, (4, 2)), (0, (1, 1.2)), (0, (5, 1, 1, 1)))
+MARKERS = (None, "D", "^", "v")
 
 
 def scenes_of(series):
@@ -41,7 +42,9 @@ def scenes_of(series):
 
 
 def style_of_series(series, element, method):
-    """Return the options of a curve: colour and marker tell the element, the line the route.
+    """Return the options of a curve: its colour tells the element, line and marker the route.
+
+    In grey the markers of P1 are white, those of CR filled.
 
     Parameters
     ----------
@@ -61,10 +64,13 @@ def style_of_series(series, element, method):
     (0, (4, 2))
     """
     routes = list(dict.fromkeys(route for _, _, route in series))
+    place, own = routes.index(method) % len(LINES), ELEMENT_STYLES[element]
     return {
-        **ELEMENT_STYLES[element],
-        "linestyle": LINES[routes.index(method) % len(LINES)],
-        "markersize": 2.5,
+        **own,
+        "linestyle": LINES[place],
+        "marker": MARKERS[place] or own["marker"],
+        "markeredgewidth": 0.6,
+        "markersize": 2.8,
         "linewidth": 0.8,
         "label": f"{element} {method}",
     }
@@ -73,7 +79,7 @@ def style_of_series(series, element, method):
 _SHORT = 1.4  # decades, below which there may be but one label
 _ROUGH = {
     "P1": {"color": GREY, "marker": "v", "markerfacecolor": "white"},
-    "CR": {"color": "#9ec1e6", "marker": "^"},  # a light blue
+    "CR": {"color": "#79a9de", "marker": "^"},  # a light blue
 }
 
 
@@ -118,6 +124,22 @@ def fit_logarithmic(axes, margin):
         if math.log10(high / low) < _SHORT:
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def number_decades(axis, most):
+    """Put numbers at decades, evenly, so that there is room for them.
+
+    Parameters
+    ----------
+    axis : matplotlib.axis.Axis
+        Logarithmic, with its limits.
+    most : int
+        Numbers, at most.
+    """
+    low, high = (math.log10(limit) for limit in axis.get_view_interval())
+    first, last = math.ceil(low), math.floor(high)
+    step = max(-(-(last - first + 1) // most), 1)
+    axis.set_ticks([10.0**power for power in range(first, last + 1, step)])
 
 
 def add_key(figure, axes, columns):

@@ -53,7 +53,9 @@ def megabytes():
 
 def main():
     """Measure each level in a process of its own, and print a table."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--scenes", nargs="+", default=["paper-exact", "l-shape"])
     parser.add_argument("--levels", nargs="+", type=int, default=[128, 256, 512])
     parser.add_argument("--one", nargs=2, help=argparse.SUPPRESS)

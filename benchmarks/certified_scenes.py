@@ -40,7 +40,9 @@ def compared(seed):
 
 def main():
     """Draw, certify, compare."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--seeds", type=int, nargs=2, default=(0, 1000), metavar="N")
     ratios, refused, wrong = [], {}, []
     for seed in range(*parser.parse_args().seeds):

@@ -1,5 +1,4 @@
-"""Counts of work and bytes per unknown of every scene that ships, element and route, against those
-on record.
+"""Counts of work and bytes per unknown of all scenes, elements and routes, against the record.
 
     python benchmarks/counts.py           # what has changed by more than a tenth
     python benchmarks/counts.py --write   # write tests/data/counts.csv anew
@@ -23,7 +22,9 @@ from solve_counts import changes, count_scene  # noqa: E402
 
 def main():
     """Count, and compare or write."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--write", action="store_true")
     write = parser.parse_args().write
     scenes = [

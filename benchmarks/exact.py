@@ -1,5 +1,4 @@
-"""What an exact truth costs beside the solve: discretising and errors, in solves, of every exact
-scene that ships.
+"""What an exact truth costs beside the solve: discretising and errors, in solves, of all scenes.
 
     python benchmarks/exact.py [--sizes 8,512] [--elements P1,CR] [--repeats 7] [--before FOLDER]
 
@@ -81,7 +80,9 @@ def main():
     if sys.argv[1:2] == ["--child"]:
         path, element, n, repeats = sys.argv[2:]
         return measure(path, element, int(n), int(repeats))
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--sizes", default="8,512")
     parser.add_argument("--elements", default="P1,CR")
     parser.add_argument("--repeats", type=int, default=7)

@@ -1,5 +1,4 @@
-"""How time and memory grow with the number of unknowns: the paper's problem, discretised and
-solved, by each route.
+"""How time and memory to discretise and solve the paper's problem grow with the unknowns.
 
     python benchmarks/growth.py [--routes fourier,direct] [--elements P1,CR] [--sizes 128,256,512]
     [--repeats 3]
@@ -82,7 +81,9 @@ def main():
     if sys.argv[1:2] == ["--child"]:
         route, element, n, repeats = sys.argv[2:]
         return measure(route, element, int(n), int(repeats))
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--routes", default="fourier,direct")
     parser.add_argument("--elements", default="P1,CR")
     parser.add_argument("--sizes", default="128,256,512,1024,2048")

@@ -1,5 +1,4 @@
-"""Where the time of a multigrid solve goes, part by part, in work units (`speed.py`), with the
-calls of each part.
+"""Where the time of a multigrid solve goes, part by part, in work units (`speed.py`).
 
     python benchmarks/parts.py [--n 512] [--repeats 7] [--elements P1 CR]
 
@@ -137,7 +136,9 @@ def report(element, n, repeats):
 
 def main():
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--n", type=int, default=512)
     parser.add_argument("--repeats", type=int, default=7)
     parser.add_argument("--elements", nargs="+", default=["P1", "CR"])

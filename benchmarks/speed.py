@@ -1,18 +1,20 @@
-"""How fast the paper's reference problem is solved (h = 1/512), by our routes and by others: all as
-ratios of one run.
+"""How fast the paper's reference problem (h = 1/512) is solved: ratios of one run to other ways.
 
     python benchmarks/speed.py [--n 512] [--repeats 5] [--slow-repeats 3]
 
 Every measurement is a process of its own and counts the whole way, mesh, assembly and solve,
 without imports; processes take turns, and medians are printed with their ranges.
 
-baseline    what a scikit-fem user writes first: assembly by scikit-fem, an active set method,
-SciPy's spsolve per step superlu     our matrices, active set started from the coarser level's,
-SuperLU in symmetric mode per step pyamg       the same with conjugate gradients and PyAMG's
-Ruge-Stueben levels auto        `signorini.solve`: the fourier route, which builds neither mesh nor
-matrix multigrid   the same square as a general triangulation, refined from 4 by 4 cells, with the
-route forced rough       multigrid ended at the discretisation's own accuracy errors      the 12
-evaluations of the paper's errors against the P1 solution
+- baseline: what a scikit-fem user writes first: assembly by scikit-fem, an active set method,
+  SciPy's spsolve per step
+- superlu: our matrices, active set started from the coarser level's, SuperLU in symmetric mode
+  per step
+- pyamg: the same with conjugate gradients and PyAMG's Ruge-Stueben levels
+- auto: `signorini.solve`: the fourier route, which builds neither mesh nor matrix
+- multigrid: the same square as a general triangulation, refined from 4 by 4 cells, with the route
+  forced
+- rough: multigrid ended at the discretisation's own accuracy
+- errors: the 12 evaluations of the paper's errors against the P1 solution
 
 A work unit is one product `A @ x` with the finest level's matrix, timed in the same process. A
 solve's work units leave out mesh and matrices of all levels, which the seconds count; they include
@@ -327,7 +329,9 @@ def targets(found):
 
 def main():
     """Measure and print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--n", type=int, default=512)
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument(

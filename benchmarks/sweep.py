@@ -65,7 +65,9 @@ def solves(path):
 
 def main():
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--points", type=int, default=1000)
     count = parser.parse_args().points
     with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,4 @@
-"""How much a clean build costs, in runs with nothing to do: of the paper scene (the PDF apart), or
-of all scenes.
+"""How much a clean build of the paper scene or of all costs, in runs with nothing to do.
 
     python benchmarks/workflow.py [--repeats 5] [--all-scenes]
 
@@ -35,7 +34,9 @@ def seconds(folder, *arguments):
 
 def main():
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--all-scenes", action="store_true")
     arguments = parser.parse_args()

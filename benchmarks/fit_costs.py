@@ -12,13 +12,13 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import least_squares
 
 ROOT = Path(__file__).parents[1]
 MEASURED = ROOT / "docs/studies/benchmark/benchmark.csv"
 COSTS = ROOT / "src/signorini/scene/costs.json"
 ROUTES = ("fourier", "multigrid", "direct")
 MESHED = ("l-shape",)  # all other measured scenes are grids
-POWERS = np.arange(0.5, 1.41, 0.05)
 
 
 def measured_rows():
@@ -65,20 +65,20 @@ def _costs(rows, key):
 
 
 def _fit(rows, measured):
-    """Start, factor, power of ``start + factor dofs^power``: the least relative errors."""
+    """Start, factor, power of ``start + factor dofs^power``: the least relative errors.
+
+    The squares are of logarithms, so that a model half as large is as bad as one twice as large.
+    """
     dofs = np.array([float(row["dofs"]) for row in rows])
-    values = np.array([measured(row) for row in rows])
-    fits = [_fit_power(dofs, values, power) for power in POWERS]
-    _, start, factor, power = min(fit for fit in fits if min(fit[1:3]) > 0)
-    return [float(f"{number:.4g}") for number in (start, factor, power)]
+    values = np.log([measured(row) for row in rows])
 
+    def misses(parameters):
+        log_start, log_factor, power = parameters
+        return np.logaddexp(log_start, log_factor + power * np.log(dofs)) - values
 
-def _fit_power(dofs, values, power):
-    columns = np.stack([np.ones_like(dofs), dofs**power], axis=1)
-    relative = columns / values[:, None]
-    (start, factor), *_ = np.linalg.lstsq(relative, np.ones_like(values))
-    misses = np.log(np.maximum(relative @ (start, factor), 1e-9))
-    return (misses**2).sum(), start, factor, power
+    start = [values.min(), values.max() - np.log(dofs.max()), 1.0]
+    log_start, log_factor, power = least_squares(misses, start).x
+    return [float(f"{number:.4g}") for number in (np.exp(log_start), np.exp(log_factor), power)]
 
 
 def _curve(row):

@@ -91,6 +91,7 @@ def _measured(parts):
     flat = stretched[stretched["aspect"] <= 1e-2]
     return {
         "busy": parts["success"]["busy"],
+        "unknowns": parts["success"]["dofs"],
         "finest": errors.loc[errors["family"] == "patch", "n"].max(),
         "conditions": summaries.growth(floor["conditions"], "condition"),
         "flat": summaries.growth(flat, "error", by="aspect"),

@@ -23,12 +23,12 @@ def submit(folder, threads, megabytes, minutes, script):
 
 
 def start(folder, number, command):
-    """Run a command in the background, its output and at last its exit code in files."""
+    """Run a command in the background, elsewhere, its output and at last its exit code in files."""
     name = folder / str(number)
     with open(f"{name}.log", "w") as log:
         watched = ["bash", "-c", '"${@:2}"; echo $? >"$1.new"; mv "$1.new" "$1"', "bash"]
         streams = {"stdin": subprocess.DEVNULL, "stdout": log, "stderr": log}
-        subprocess.Popen([*watched, name, *command], start_new_session=True, **streams)
+        subprocess.Popen([*watched, name, *command], cwd="/", start_new_session=True, **streams)
 
 
 def status(folder, number):

@@ -50,7 +50,10 @@ TRIED = {
     r"snakemake .*--workflow-profile profiles/slurm": lambda command: (
         f"{command} --dry-run" if SLURM else "true"
     ),
-    r"snakemake .*--workflow-profile profiles/cluster-generic.*": lambda command: (
+    r"snakemake .*--workflow-profile profiles/kubernetes": lambda command: (
+        f"{command} --dry-run" if GENERIC else "true"
+    ),
+    r"snakemake .*--workflow-profile profiles/cluster-generic": lambda command: (
         f"{command} --dry-run --cluster-generic-submit-cmd true" if GENERIC else "true"
     ),
     r"signorini new (.*)": lambda command: (

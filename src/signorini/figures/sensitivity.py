@@ -65,7 +65,7 @@ def draw_matches(rows):
         _name_loads(axes, loads)
     _name_loads_axis(figure)
     counted = f"errors matched, of {rows[0]['errors']}"
-    _draw_scale(figure, colours, f"{counted}; below and by colour, the largest relative miss")
+    _draw_scale(figure, colours, f"{counted}; below, in percent, and by colour, the largest relative miss")
     return figure
 
 
@@ -81,7 +81,7 @@ def _fill_matches(axes, lines, colours):
             dark = colours.norm(miss) < DARK_MISS
             draw_tile(axes, x, y, colours.to_rgba(miss))
             write_on_tile(axes, x + 0.5, y + 0.4, row["matched"], size=8, dark=dark)
-            write_on_tile(axes, x + 0.5, y + 0.78, f"{percent(miss)}%", size=5.6, dark=dark)
+            write_on_tile(axes, x + 0.5, y + 0.78, percent(miss), size=6, dark=dark)
 
 
 def _write_beside(axes, text):

@@ -7,25 +7,27 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import NullFormatter
 
-from signorini.figures.style import ACCENT, BLACK, FAINT, GREY, STYLE, TEXT_WIDTH, new_figure
+from signorini.figures.style import (
+    ACCENT,
+    BLACK,
+    ELEMENT_STYLES,
+    FAINT,
+    GREY,
+    STYLE,
+    TEXT_WIDTH,
+    new_figure,
+)
 
 SMALL = STYLE | {"font.size": 8, "axes.labelsize": 8, "lines.markersize": 3}
 # (element, run) -> how its guaranteed error is drawn; the true error, where known, is a thin line.
+_RUNS = {
+    "adaptive": {"linestyle": "-"},
+    "uniform": {"linestyle": "--", "markerfacecolor": "white"},
+}
 _STYLES = {
-    ("P1", "adaptive"): {"color": ACCENT, "marker": "s", "linestyle": "-"},
-    ("P1", "uniform"): {
-        "color": ACCENT,
-        "marker": "s",
-        "markerfacecolor": "white",
-        "linestyle": "--",
-    },
-    ("CR", "adaptive"): {"color": BLACK, "marker": "o", "linestyle": "-"},
-    ("CR", "uniform"): {
-        "color": BLACK,
-        "marker": "o",
-        "markerfacecolor": "white",
-        "linestyle": "--",
-    },
+    (element, run): {"color": own["color"], "marker": own["marker"]} | style
+    for element, own in ELEMENT_STYLES.items()
+    for run, style in _RUNS.items()
 }
 _TRUE = {"color": GREY, "linewidth": 0.7, "linestyle": ":", "marker": "none"}
 _COLUMNS = 3
@@ -123,7 +125,7 @@ def _panels(count, share, legend=0.0):
     figure = new_figure(TEXT_WIDTH, height)
     grid = figure.subplots(rows, _COLUMNS, squeeze=False)
     margins = {"bottom": 0.36 / height, "top": 1 - (0.22 + legend) / height}
-    figure.subplots_adjust(left=0.09, right=0.99, wspace=0.3, hspace=0.42, **margins)
+    figure.subplots_adjust(left=0.09, right=0.98, wspace=0.3, hspace=0.42, **margins)
     panels = grid.ravel().tolist()
     for axes in panels[count:]:
         axes.axis("off")

@@ -64,8 +64,8 @@ def draw_matches(rows):
                 _write_beside(axes, H1[h1])
         _name_loads(axes, loads)
     _name_loads_axis(figure)
-    counted = f"errors matched, of {rows[0]['errors']}"
-    _draw_scale(figure, colours, f"{counted}; below, in percent, and by colour, the largest relative miss")
+    counted, missed = f"errors matched, of {rows[0]['errors']}", "the largest relative miss"
+    _draw_scale(figure, colours, f"{counted}; below, in percent, and by colour, {missed}")
     return figure
 
 

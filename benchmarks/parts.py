@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "src"))
 
 from signorini import solve  # noqa: E402
 from signorini.fem.problem import discretize_on  # noqa: E402
-from signorini.solvers import conjugate_gradients, level_solver, multigrid, select  # noqa: E402
+from signorini.solvers import conjugate_gradients, level_solver, multigrid, select, signs  # noqa: E402
 from signorini.solvers.cycle import Cycle  # noqa: E402
 from signorini.solvers.level import Level  # noqa: E402
 from signorini.work import counting  # noqa: E402
@@ -52,7 +52,7 @@ WRAPPED = [
     (conjugate_gradients.ConjugateGradients, "_violated_signs", "finest level: signs"),
     (level_solver.LevelSolver, "errors", "errors of u and of the forces"),
     (level_solver.LevelSolver, "result", "undecided signs"),
-    (multigrid, "dofs_to_bind", "undecided signs"),
+    (signs, "dofs_to_bind", "undecided signs"),
     (select, "kkt_residual", "KKT residual"),
 ]
 

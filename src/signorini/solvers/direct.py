@@ -23,21 +23,18 @@ from signorini.solvers.conditioning import STRETCHED, accuracy_loss_causes, has_
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.dot import dot
 from signorini.solvers.extremes import largest
-from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
     USELESS_ACCURACY,
     ErrorEstimates,
     ReleaseEffect,
     assess,
-    dofs_to_bind,
     error_bounds,
-    more_accurate,
     violated_signs,
 )
 from signorini.solvers.schur_complement import SchurComplement, singular_message
+from signorini.solvers.signs import Search, settle
 
-_MAX_STEPS = 100
 _STRICT_STEPS = 10  # steps in which signs count that may be rounding
 _CORRECTIONS, _STEPS = 10, 200
 _SMALL = 1e-6  # a correction of which share of u needs no other
@@ -88,30 +85,44 @@ def solve_direct(problem, guess=None):
         exact = ErrorEstimates(0.0, 0.0, *[nothing] * 4, 0.0)
         return assess(u, nothing > 0.0, 0, nothing, nothing, exact)
     u[problem.contact] = problem.lower
-    factorised = _FactorisedProblem(problem)
-    active, iterations = factorised.solve_contact_problem(u, guess)
-    rule, first = PivotingRule(), None
-    for step in range(_MAX_STEPS):
-        u, gap, force, remaining = factorised.refined(u, active)
-        errors = factorised.errors(u, active, remaining)
-        strict = step < _STRICT_STEPS and first is None
-        wrong = violated_signs(active, gap, force, errors, np.ptp(u) if strict else None)
-        if not wrong.any():
-            if not errors.u <= USELESS_ACCURACY * np.ptp(u):
-                raise SolverError(singular_message(problem))
-            release_effect = factorised.release_effect(active, force <= errors.forces)
-            result = assess(u, active, iterations, gap, force, errors, release_effect)
-            near = dofs_to_bind(u, active, gap, errors)
-            if first is not None or not near.any():
-                return more_accurate(first, result)
-            first, u, active = result, u.copy(), active | near
-            continue
-        iterations += 1
-        active[rule.choose(active, wrong, np.where(active, force, gap))] ^= True
-    raise SolverError(
-        f"direct: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best; "
-        f"{accuracy_loss_causes(problem)}"
-    )
+    return settle(_Search(problem, u, guess))
+
+
+class _Search(Search):
+    """The solution by factors."""
+
+    name = "direct"
+
+    def __init__(self, problem, u, guess):
+        self.factorised = _FactorisedProblem(problem)
+        super().__init__(u, *self.factorised.solve_contact_problem(u, guess))
+        self.strict = True
+
+    @property
+    def remedy(self):
+        """What to do where no contact set is found."""
+        return f"; {accuracy_loss_causes(self.factorised.problem)}"
+
+    def refine(self):
+        factorised = self.factorised
+        self.u, self.gap, self.force, remaining = factorised.refined(self.u, self.active)
+        return factorised.errors(self.u, self.active, remaining)
+
+    def wrong_signs(self, errors):
+        """At first signs count that may be rounding."""
+        strict = self.strict and self.exchanges < _STRICT_STEPS
+        variation = np.ptp(self.u) if strict else None
+        return violated_signs(self.active, self.gap, self.force, errors, variation)
+
+    def result(self, errors):
+        if not errors.u <= USELESS_ACCURACY * np.ptp(self.u):
+            raise SolverError(singular_message(self.factorised.problem))
+        released = self.factorised.release_effect(self.active, self.force <= errors.forces)
+        return assess(self.u, self.active, self.steps, self.gap, self.force, errors, released)
+
+    def bind(self, near):
+        super().bind(near)
+        self.strict = False
 
 
 class _FactorisedProblem:

@@ -11,27 +11,18 @@ for solving Poisson's equations, SIAM J. Numer. Anal. 7 (1970).
 
 import numpy as np
 
-from signorini.exceptions import SolverError
 from signorini.fem.residual import EPS
 from signorini.fem.stencil import apply_stiffness
 from signorini.solvers.contact import solve_contact
 from signorini.solvers.extremes import largest
 from signorini.solvers.line_elimination import EdgeLines, VertexLines
 from signorini.solvers.oriented_grid import orient
-from signorini.solvers.pivoting import PivotingRule
-from signorini.solvers.route_result import (
-    ErrorEstimates,
-    assess,
-    dofs_to_bind,
-    more_accurate,
-    variation_of,
-    violated_signs,
-)
+from signorini.solvers.route_result import ErrorEstimates, assess, variation_of
+from signorini.solvers.signs import Search, settle
 from signorini.solvers.spectral import contact_operator
 from signorini.work import count
 
 _ELIMINATIONS = {"P1": VertexLines, "CR": EdgeLines}
-_MAX_STEPS = 100
 _CORRECTIONS = 5
 _CERTAIN = 1e-12  # a correction of which share of u is one to the last digits
 _SAFETY = 8.0  # of a bound over the last correction
@@ -98,42 +89,53 @@ def solve_fourier(problem, guess=None):
     u = _displacement(problem, elimination, _shifted_load(problem), line.solve_contact_problem)
     u[problem.fixed] = problem.fixed_values
     u[problem.contact] += problem.lower
-    rule, first = PivotingRule(), None
-    for _ in range(_MAX_STEPS):
-        gap, errors = _refined(problem, elimination, line, u)
-        wrong = violated_signs(line.active, gap, line.force, errors)
-        near = dofs_to_bind(u, line.active, gap, errors)
-        if wrong.any():
-            line.exchange(rule.choose(line.active, wrong, np.where(line.active, line.force, gap)))
-        elif first is not None or not near.any():
-            last = assess(u, line.active, line.iterations, gap, line.force, errors)
-            return more_accurate(first, last)
-        else:
-            first = assess(u.copy(), line.active, line.iterations, gap, line.force, errors)
-            line.active = line.active | near
-        u[problem.contact[line.active]] = problem.lower[line.active]
-    raise SolverError(
-        f"fourier: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best"
-    )
+    return settle(_Search(problem, elimination, line, u))
 
 
-def _refined(problem, elimination, line, u):
-    """Correct u in place until corrections stop falling, mostly once; the gaps, and the errors of
-    all.
-    """
-    last = np.inf
-    for _ in range(_CORRECTIONS):
-        before = line.force
-        rest = _residual(problem, u)
-        correction = _displacement(problem, elimination, rest, line.solve_with_fixed_set)
-        # The correction goes to the gap before u rounds it off.
-        gap = (u[problem.contact] - problem.lower) + correction[problem.contact]
-        u += correction
-        size, change = largest(correction), largest(line.force - before)
-        if size <= _CERTAIN * variation_of(u) or size > 0.5 * last:
-            break
-        last = size
-    return gap, _errors(problem, u, size, change, line.stiffness)
+class _Search(Search):
+    """The solution by eliminations."""
+
+    name = "fourier"
+
+    def __init__(self, problem, elimination, line, u):
+        super().__init__(u, line.active, line.iterations)
+        self.problem, self.elimination, self.line = problem, elimination, line
+
+    @property
+    def force(self):
+        """Contact forces, as the line has them."""
+        return self.line.force
+
+    def refine(self):
+        """Correct u in place until corrections stop falling, mostly once."""
+        problem, line, u, last = self.problem, self.line, self.u, np.inf
+        for _ in range(_CORRECTIONS):
+            before = line.force
+            rest = _residual(problem, u)
+            correction = _displacement(problem, self.elimination, rest, line.solve_with_fixed_set)
+            # The correction goes to the gap before u rounds it off.
+            self.gap = (u[problem.contact] - problem.lower) + correction[problem.contact]
+            u += correction
+            size, change = largest(correction), largest(line.force - before)
+            if size <= _CERTAIN * variation_of(u) or size > 0.5 * last:
+                break
+            last = size
+        return _errors(problem, u, size, change, line.stiffness)
+
+    def result(self, errors):
+        return assess(self.u, self.active, self.steps, self.gap, self.force, errors)
+
+    def exchange(self, wrong):
+        super().exchange(wrong)
+        self._hold()
+
+    def bind(self, near):
+        super().bind(near)
+        self._hold()
+
+    def _hold(self):
+        problem, self.line.active = self.problem, self.active
+        self.u[problem.contact[self.active]] = problem.lower[self.active]
 
 
 def _residual(problem, u):
@@ -179,12 +181,6 @@ class _ContactLine:
     def _force(self, operator, w, q):
         """The contact forces: the load condensed to a dof in contact is what presses on it."""
         return np.where(self.active, operator.apply(w) - q, 0.0)
-
-    def exchange(self, dofs):
-        """Let some dofs change sides."""
-        self.active = self.active.copy()
-        self.active[dofs] ^= True
-        self.iterations += 1
 
 
 def _displacement(problem, elimination, load, gap_under):

@@ -12,7 +12,6 @@ from signorini.solvers.conjugate_gradients import ConjugateGradients, approximat
 from signorini.solvers.cycle import preconditioner
 from signorini.solvers.dot import dot
 from signorini.solvers.extremes import largest
-from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
     ErrorEstimates,
@@ -20,6 +19,7 @@ from signorini.solvers.route_result import (
     assess,
     error_bounds,
 )
+from signorini.solvers.signs import Search
 from signorini.work import count
 
 _MAX_STEPS, _MAX_CORRECTIONS = 300, 30
@@ -35,14 +35,14 @@ _NONE = np.zeros(0)
 _log = logging.getLogger(__name__)
 
 
-class LevelSolver:
+class LevelSolver(Search):
     """The search for a level's solution: u and contact set as they stand, and what the signs are
     held against.
     """
 
     def __init__(self, levels, obstacle, u, active):
-        self.levels, self.obstacle, self.u, self.active = levels, obstacle, u, active
-        self.rule, self.steps, self.smallest_eigenvalue = PivotingRule(), 0, 1.0
+        super().__init__(u, active)
+        self.levels, self.obstacle, self.smallest_eigenvalue = levels, obstacle, 1.0
         self.A, c = levels[0].A, obstacle.contact
         self.rows = self.A[c]
         self.sizes = abs(self.rows)
@@ -56,8 +56,11 @@ class LevelSolver:
         fluxes = residual_and_fluxes(self.rows, load, self.u, self.obstacle.contact, _NONE)[1]
         return np.max(fluxes + np.abs(load), initial=0.0)
 
+    def refine(self):
+        self.solve(0.0)
+        return self.errors()
+
     def result(self, errors):
-        """The answer, with its errors."""
         unsure = self.active & (self.force <= errors.forces)
         release_effect = self._release_effect(unsure) if unsure.any() else None
         return assess(self.u, self.active, self.steps, self.gap, self.force, errors, release_effect)

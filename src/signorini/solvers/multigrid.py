@@ -22,13 +22,8 @@ from signorini.solvers.conditioning import accuracy_loss_causes
 from signorini.solvers.hierarchy import build_hierarchy
 from signorini.solvers.level import HALF
 from signorini.solvers.level_solver import LevelSolver
-from signorini.solvers.route_result import (
-    USELESS_ACCURACY,
-    ErrorEstimates,
-    dofs_to_bind,
-    more_accurate,
-    violated_signs,
-)
+from signorini.solvers.route_result import USELESS_ACCURACY, ErrorEstimates
+from signorini.solvers.signs import settle
 from signorini.work import counting
 
 
@@ -82,14 +77,15 @@ def solve_multigrid(problem, guess=None, tolerance=0.0):
             u, active = prolong(
                 levels[k - 1], obstacles[k], obstacles[k - 1], solver.u, solver.active
             )
-    solver = LevelSolver(levels, obstacles[0], u, active if guess is None else guess)
+    active = active if guess is None else guess
+    solver = _FinestSolver(problem, levels, obstacles[0], u, active)
     if tolerance:
         solver.solve(tolerance)
         nothing = np.zeros(problem.contact.size)
         return solver.result(
             ErrorEstimates(tolerance * np.ptp(solver.u), 0.0, *[nothing] * 3, nothing + 1.0, 0.0)
         )
-    return _solve_to_rounding(problem, solver)
+    return settle(solver)
 
 
 def levels_and_obstacles(problem):
@@ -131,24 +127,19 @@ def levels_and_obstacles(problem):
     return levels, obstacles
 
 
-def _solve_to_rounding(problem, solver):
-    """Solve to the last bit, until no sign is wrong beyond its own error."""
-    first = None
-    while True:
-        solver.solve(0.0)
-        errors = solver.errors()
-        if not errors.u <= USELESS_ACCURACY * np.ptp(solver.u):
-            causes = accuracy_loss_causes(problem)
+class _FinestSolver(LevelSolver):
+    """The search on the finest level, to the last bit."""
+
+    def __init__(self, problem, levels, obstacle, u, active):
+        super().__init__(levels, obstacle, u, active)
+        self.problem = problem
+
+    def refine(self):
+        errors = super().refine()
+        if not errors.u <= USELESS_ACCURACY * np.ptp(self.u):
+            causes = accuracy_loss_causes(self.problem)
             raise SolverError(f"domain: no digit of the solution survives rounding: {causes}")
-        wrong = violated_signs(solver.active, solver.gap, solver.force, errors)
-        if wrong.any():
-            solver.exchange(wrong)
-            continue
-        result = solver.result(errors)
-        near = dofs_to_bind(solver.u, solver.active, solver.gap, errors)
-        if first is not None or not near.any():
-            return more_accurate(first, result)
-        first, solver.u, solver.active = result, solver.u.copy(), solver.active | near
+        return errors
 
 
 @dataclass(frozen=True, eq=False)

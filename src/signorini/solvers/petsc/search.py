@@ -13,20 +13,17 @@ from signorini.fem.residual import EPS, rounding_of
 from signorini.solvers.extremes import largest
 from signorini.solvers.petsc.held import CORRECTION, RESPONSE, Held
 from signorini.solvers.petsc.newton import contact_set
-from signorini.solvers.pivoting import PivotingRule
 from signorini.solvers.route_result import (
     SAFETY,
     USELESS_ACCURACY,
     ErrorEstimates,
     ReleaseEffect,
     assess,
-    dofs_to_bind,
     error_bounds,
-    more_accurate,
-    violated_signs,
 )
+from signorini.solvers.signs import Search, settle
 
-_MAX_STEPS, _CORRECTIONS = 100, 30
+_CORRECTIONS = 30
 _STALLED = 0.5  # of the correction before: no gain
 _AHEAD = 2.0  # times the next correction, as far as the last two tell: all that follow
 _ACCEPTED = 1e-11  # correction, of what u varies, that is told and not refused where it stalls
@@ -52,26 +49,30 @@ def search(share, guess=None):
     SolverError
         If no contact set is found, or corrections do not fall.
     """
-    u, active, steps = contact_set(share, guess)
-    rule, first = PivotingRule(), None
-    for _ in range(_MAX_STEPS):
-        state = _State(share, u, active)
-        errors = state.errors()
-        wrong = violated_signs(state.active, state.gap, state.force, errors)
-        u, active = state.u, state.active
-        if wrong.any():
-            steps += 1
-            active[rule.choose(active, wrong, np.where(active, state.force, state.gap))] ^= True
-            continue
-        result = state.result(steps, errors)
-        near = dofs_to_bind(state.ends, active, state.gap, errors)
-        if first is not None or not near.any():
-            return more_accurate(first, result)
-        first, u, active = result, u.copy(), active | near
-    raise SolverError(
-        f"petsc: no contact set in {_MAX_STEPS} steps, {rule.fewest} signs wrong at best; "
-        "set solver.method to direct, or to auto"
-    )
+    return settle(_Search(share, *contact_set(share, guess)))
+
+
+class _Search(Search):
+    """The solution of a share: a `_State` for each contact set."""
+
+    name, remedy = "petsc", "; set solver.method to direct, or to auto"
+
+    def __init__(self, share, u, active, steps):
+        super().__init__(u, active, steps)
+        self.share = share
+
+    @property
+    def ends(self):
+        """Of all processes."""
+        return self.state.ends
+
+    def refine(self):
+        self.state = _State(self.share, self.u, self.active)
+        self.u, self.gap, self.force = self.state.u, self.state.gap, self.state.force
+        return self.state.errors()
+
+    def result(self, errors):
+        return self.state.result(self.steps, errors)
 
 
 class _Effect(NamedTuple):

@@ -15,7 +15,7 @@ MODULES = sorted((ROOT / "src/signorini").rglob("*.py"))
 # These compose names, of commands and for users: `signorini.solve`.
 COMPOSING = [ROOT / "src/signorini" / name for name in ("__init__.py", "commands/program.py")]
 UNUSED = {"certify", "sweep", "check", "new", "scenes", "show"}  # by the workflow
-UNUSED |= {"suite export", "suite score", "codecheck", "forecast"}
+UNUSED |= {"suite export", "suite score", "codecheck", "forecast", "crate"}
 AT_THE_END = {"provenance"}  # of a run, which no job waits for
 # Described once beside what was measured, or again with it: no edit of its own starts it again.
 KEPT = {"benchmark machine"}

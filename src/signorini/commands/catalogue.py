@@ -62,6 +62,7 @@ CATALOGUE = {
     "An artifact": {
         "provenance": "say what results were built from, by what and where",
         "codecheck": "write the file from which a codechecker starts",
+        "crate": "pack a build as a Workflow Run RO-Crate",
     },
     "The benchmark": {
         "benchmark machine": "describe the machine, the versions and the load",

@@ -73,6 +73,23 @@ def _composed(call):
     return any(isinstance(part, parts) for part in ast.walk(call.args[0]))
 
 
+def test_rocrate_is_loaded_for_a_crate_alone():
+    """Importing it takes longer than most jobs do."""
+    users = {path for path in MODULES if "rocrate" in _imported(path)}
+    assert [command for command in FILES if users & set(sources(command))] == ["crate"]
+
+
+def _imported(path):
+    """The packages that a module imports, wherever the import stands."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            found.add(node.module.partition(".")[0])
+        if isinstance(node, ast.Import):
+            found |= {each.name.partition(".")[0] for each in node.names}
+    return found
+
+
 def test_rivals_are_inputs_of_their_study(declared):
     names = ("active_set", "bounded", "quadratic")
     adapters = {f"src/signorini/rivals/{name}.py" for name in names}

@@ -1,11 +1,10 @@
-"""Pack a build as a Workflow Run RO-Crate: the workflow, its inputs and its results with their
-SHA-256 and sizes, and the run, from FOLDER/provenance.json. It needs the package rocrate.
+"""Pack a build as an RO-Crate, by the profile Provenance Run Crate: the workflow, its inputs and
+results with their SHA-256 and sizes, and how each job ran, all from FOLDER/provenance.json.
 
 example:
   signorini crate results -o build/crate
 """
 
-import json
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -32,30 +31,31 @@ def run(arguments):
     StorageError
         If rocrate is not there, the folder is not new, or a file is not as recorded.
     """
-    output = Path(arguments.output)
+    results, output = Path(arguments.results), Path(arguments.output)
     if output.exists():
         raise StorageError(f"{output}: is there already; name a new folder")
+    if output.resolve().is_relative_to(results.resolve()):
+        raise StorageError(f"{output}: is among the results; name a folder outside of {results}")
     if find_spec("rocrate") is None:
-        raise StorageError("rocrate: not installed; pip install rocrate")
-    record, about = _record(Path(arguments.results)), _about(arguments.citation)
+        raise StorageError(
+            "it needs rocrate, which is not installed: pip install 'signorini[crate]'"
+        )
+    record, about = _record(results), _about(arguments.citation)
 
     from signorini.provenance.crate import build_crate
 
     build_crate(Path(), record, about).write(output)
     counts = f"{len(record['inputs'])} inputs, {len(record['products'])} results"
-    return Outcome(f"{output}: {counts}")
+    return Outcome(f"{output}: {counts}, {len(record['jobs'])} jobs")
 
 
 def _record(folder):
-    from signorini.provenance.build import FORMAT
-    from signorini.provenance.folder import RECORD, read_small
+    from signorini.provenance.verify import read_record
 
-    try:
-        record = json.loads(read_small(folder / RECORD))
-    except ValueError as error:
-        raise StorageError(f"{folder / RECORD}: no JSON ({error}); build again") from None
-    if not isinstance(record, dict) or record.get("format") != FORMAT:
-        raise StorageError(f"{folder / RECORD}: no record of format {FORMAT}; build again")
+    record, below = read_record(folder)
+    if below or folder.resolve() != Path(record["results"]).resolve():
+        whole = f"the folder of results is {record['results']}, below that of the project"
+        raise StorageError(f"{folder}: {whole}; go there, and name it")
     return record
 
 
@@ -63,7 +63,7 @@ def _about(path):
     from signorini.scene.strict_yaml import load_yaml
 
     about = load_yaml(path)
-    missing = {"title", "abstract", "license"} - set(about)
+    missing = {"title", "abstract", "license", "authors"} - set(about)
     if missing:
         raise StorageError(f"{path}: no {', '.join(sorted(missing))}; add what is missing")
     return about

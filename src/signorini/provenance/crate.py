@@ -1,38 +1,61 @@
-"""A build as a Workflow Run RO-Crate: the workflow, what it read, what it made, and how it ran.
+"""A build as a Provenance Run Crate: the workflow, what it read and made, and how each job ran.
 
-All of it is taken from ``provenance.json``; who started the run is not known, and not said.
+All of it is taken from ``provenance.json``.
 """
 
-from datetime import UTC, datetime
+import os
+from io import StringIO
 from pathlib import Path, PurePosixPath
 
 from signorini.exceptions import StorageError
-from signorini.provenance.build import COMPLETE, LIBRARY
-from signorini.provenance.folder import check_inside, digest_of
+from signorini.provenance.crate_run import add_run, compact, entity, package
+from signorini.provenance.folder import RECORD, check_inside, digest_of
+from signorini.storage import digest_file
 from signorini.wording import cut
 
 WORKFLOW = "Snakefile"
-BASE = "https://w3id.org/ro/wfrun"
+README = "README.md"
 PROFILES = {
-    f"{BASE}/process/0.5": "Process Run Crate",
-    f"{BASE}/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
+    "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/ro/wfrun/provenance/0.5": "Provenance Run Crate",
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
+# Version 1.1, to which these profiles belong, has no word for a SHA-256: their own terms do.
+_TERMS = "https://w3id.org/ro/terms/workflow-run/context"
+_RO_CRATE = "1.1"
 _BIOSCHEMAS = "https://bioschemas.org/profiles/ComputationalWorkflow/1.0-RELEASE"
-_RO_CRATE = "1.1"  # to which these versions of the profiles belong
-_STATUS = "http://schema.org/CompletedActionStatus", "http://schema.org/FailedActionStatus"
+_UNKNOWN = "application/octet-stream"
 _FORMATS = {
+    "": "text/plain",
+    ".bib": "application/x-bibtex",
     ".csv": "text/csv",
+    ".html": "text/html",
+    ".j2": "text/plain",
     ".json": "application/json",
     ".md": "text/markdown",
+    ".npz": "application/zip",
     ".pdf": "application/pdf",
     ".png": "image/png",
     ".py": "text/x-python",
+    ".pvd": "application/xml",
+    ".smk": "text/plain",
+    ".sha256": "text/plain",
+    ".svg": "image/svg+xml",
     ".tex": "application/x-tex",
     ".txt": "text/plain",
+    ".vtu": "application/xml",
     ".yaml": "application/yaml",
 }
-_MACHINERY = (LIBRARY, "workflow/", WORKFLOW, "requirements.txt")
+_ABOUT = """# {name}
+
+This folder is an RO-Crate: `ro-crate-metadata.json` says of each file what it is, and of each
+result which job made it, by which command, from which files, and when.
+
+- Sources: commit {commit}.
+- Results: `{results}`, of {jobs} jobs; state: {state}.
+- Whether the files are still those of the build: `signorini verify {results}`, in this folder.
+"""
 
 
 def build_crate(project, record, about):
@@ -45,7 +68,8 @@ def build_crate(project, record, about):
     record : dict
         Its ``provenance.json``.
     about : dict
-        ``title``, ``abstract`` and ``license`` as in ``CITATION.cff``.
+        ``title``, ``abstract``, ``license`` and ``authors`` as in ``CITATION.cff``; ``keywords``
+        and ``repository-code`` where it has them.
 
     Returns
     -------
@@ -55,110 +79,121 @@ def build_crate(project, record, about):
     Raises
     ------
     StorageError
-        If a file is not there, leads out of the folder, or is not as the record says.
+        If the record is not that of a run of Snakemake, or a file is not there, leads out of the
+        folder, or is not as the record says.
     """
     from rocrate.rocrate import ROCrate
 
-    digests = record["inputs"] | {path: told["sha256"] for path, told in record["products"].items()}
-    if WORKFLOW not in record["inputs"]:
-        raise StorageError(f"inputs: no {WORKFLOW}; build with Snakemake in the project's folder")
+    if WORKFLOW not in record["inputs"] or not record["jobs"]:
+        raise StorageError(
+            f"{RECORD}: no {WORKFLOW} or no jobs; build with Snakemake, in its folder"
+        )
     crate = ROCrate(version=_RO_CRATE)
+    crate.metadata.extra_contexts.append(_TERMS)
     _describe(crate, record, about)
-    main = _workflow(crate, Path(project), record)
-    files = {WORKFLOW: main}
-    for path, digest in digests.items():
-        facts = _facts(Path(project), path, digest)
-        if path == WORKFLOW:
-            main.properties().update(facts)
-        else:
-            files[path] = crate.add_file(Path(project, path), path, properties=facts)
-    main["hasPart"] = [files[path] for path in record["inputs"] if _is_part(path)]
-    _action(crate, main, files, record)
+    workflow = _workflow(crate, Path(project), record, about)
+    files = _files(crate, Path(project), record, workflow)
+    add_run(crate, workflow, files, record)
     return crate
 
 
-def _is_part(path):
-    """Whether an input is of the program, and not what it is asked."""
-    return path.startswith(_MACHINERY) and path != WORKFLOW
+def _files(crate, project, record, workflow):
+    """Path -> entity of every file, once each is known to be that of the record."""
+    products = {path: told["sha256"] for path, told in record["products"].items()}
+    files = {}
+    for path, digest in (record["inputs"] | products).items():
+        facts = _facts(project, path, digest)
+        if path == WORKFLOW:
+            workflow.properties().update(facts)
+            files[path] = workflow
+        else:
+            files[path] = crate.add_file(project / path, path, properties=facts)
+    _add_record(crate, project, record)
+    if README not in files:
+        _add_readme(crate, record)
+    return files
+
+
+def _add_record(crate, project, record):
+    """The record itself, and the digests beside results, which `signorini verify` reads."""
+    seals = [digest_file(path) for path in record["products"]]
+    there = [path.as_posix() for path in seals if os.path.lexists(project / path)]
+    for path in (f"{record['results']}/{RECORD}", *there):
+        facts = _facts(project, path, digest_of(project / path))
+        crate.add_file(project / path, path, properties=facts)
+
+
+def _add_readme(crate, record):
+    commit = record["source"]["commit"] or "unknown"
+    facts = {"results": record["results"], "jobs": len(record["jobs"]), "state": record["state"]}
+    text = _ABOUT.format(name=crate.name, commit=commit, **facts)
+    about = {"name": README, "encodingFormat": _FORMATS[".md"], "about": {"@id": "./"}}
+    crate.add_file(StringIO(text), README, properties=about)
 
 
 def _facts(project, path, digest):
     """What is said of a file, once it is known to be the one of the record."""
-    check_inside(path, "provenance.json")
+    check_inside(path, RECORD)
     found = digest_of(project / path)
     if found != digest:
         told = f"its SHA-256 is {found[:12]}..., not {cut(str(digest))[:12]}..."
         raise StorageError(f"{path}: {told}; build again, or restore it")
-    facts = {
+    return {
         "name": path,
         "sha256": digest,
         "contentSize": str((project / path).stat().st_size),
+        "encodingFormat": _FORMATS.get(PurePosixPath(path).suffix, _UNKNOWN),
     }
-    kind = _FORMATS.get(PurePosixPath(path).suffix)
-    return facts | ({"encodingFormat": kind} if kind else {})
 
 
 def _describe(crate, record, about):
-    crate.name = f"A build of {about['title']}"
-    crate.description = " ".join(about["abstract"].split())
-    crate.license = f"https://spdx.org/licenses/{about['license']}"
-    crate.datePublished = record["written"]
-    profiles = [_profile(crate, address, name) for address, name in PROFILES.items()]
-    crate.root_dataset["conformsTo"] = profiles
+    root = crate.root_dataset
+    root["name"] = f"A build of {about['title']}"
+    root["description"] = " ".join(about["abstract"].split())
+    root["datePublished"] = record["written"]
+    root["license"] = _license(crate, about["license"])
+    authors = [_author(crate, *item) for item in enumerate(about["authors"], 1)]
+    root["author"] = compact(authors)
+    root["conformsTo"] = [_profile(crate, *item) for item in PROFILES.items()]
+    if about.get("keywords"):
+        root["keywords"] = ", ".join(about["keywords"])
+
+
+def _license(crate, name):
+    address = f"https://spdx.org/licenses/{name}"
+    return entity(crate, address, "CreativeWork", name=name, url=address)
+
+
+def _author(crate, place, told):
+    """An author of the citation file: a person, or a group with one name."""
+    names = [told.get("given-names"), told.get("family-names")]
+    person = " ".join(filter(None, names))
+    kind = "Person" if person else "Organization"
+    name = person or told.get("name", "unknown")
+    return entity(crate, told.get("orcid", f"#author-{place}"), kind, name=name)
 
 
 def _profile(crate, address, name):
     version = address.rpartition("/")[2]
-    return _entity(crate, address, "CreativeWork", name=name, version=version)
+    found = crate.get(address)
+    return found or entity(crate, address, "CreativeWork", name=name, version=version)
 
 
-def _entity(crate, identifier, kind, **facts):
-    from rocrate.model.contextentity import ContextEntity
-
-    return crate.add(ContextEntity(crate, identifier, properties={"@type": kind} | facts))
-
-
-def _workflow(crate, project, record):
+def _workflow(crate, project, record, about):
     versions = record["machine"]["versions"]
-    main = crate.add_workflow(
+    workflow = crate.add_workflow(
         project / WORKFLOW,
         WORKFLOW,
         main=True,
         lang="snakemake",
         lang_version=versions.get("snakemake"),
     )
-    main["conformsTo"] = {"@id": _BIOSCHEMAS}
-    main["version"] = record["source"]["commit"] or "unknown"
-    main["softwareRequirements"] = [
-        _package(crate, name, version) for name, version in versions.items() if version
+    workflow.properties()["@type"] = [*workflow.type, "HowTo"]
+    workflow["conformsTo"] = {"@id": _BIOSCHEMAS}
+    workflow["version"] = record["source"]["commit"] or "unknown"
+    if address := about.get("repository-code") or about.get("url"):
+        workflow["url"] = address
+    workflow["softwareRequirements"] = [
+        package(crate, name, version) for name, version in versions.items() if version
     ]
-    return main
-
-
-def _package(crate, name, version):
-    address = f"https://pypi.org/project/{name}/{version}/"
-    facts = {"name": name, "softwareVersion": version, "url": address}
-    return _entity(crate, address, "SoftwareApplication", **facts)
-
-
-def _action(crate, main, files, record):
-    """The run: what it was given, what it made, when, on what machine, and how it ended."""
-    complete = record["state"] == COMPLETE
-    machine = record["machine"]
-    where = ", ".join(str(machine[key]) for key in ("processor", "system") if machine.get(key))
-    asked = " ".join(["snakemake", *record["asked"]])
-    facts = {
-        "name": f"Run of {asked}",
-        "description": f"{asked}; {len(record['jobs'])} jobs, on {where or 'unknown'}",
-        "actionStatus": {"@id": _STATUS[not complete]},
-        "endTime": record["written"],
-    }
-    starts = [job["started"] for job in record["jobs"]]
-    if starts:
-        facts["startTime"] = datetime.fromtimestamp(min(starts), UTC).isoformat(timespec="seconds")
-    if not complete:
-        facts["error"] = f"failed: {', '.join(record['failed'])}"
-    given = [files[path] for path in record["inputs"] if not path.startswith(_MACHINERY)]
-    made = [files[path] for path in record["products"]]
-    action = crate.add_action(main, "#run", object=given, result=made, properties=facts)
-    crate.root_dataset["mentions"] = [action]
+    return workflow

@@ -1,0 +1,178 @@
+"""The run of a build in an RO-Crate: its rules as steps, its jobs as actions, and Snakemake's part.
+
+The words are those of the profile Provenance Run Crate: a tool is the source file of a command, a
+step is a rule that runs it, an action is a job. Who started the run is not known, and not said.
+"""
+
+import re
+from datetime import UTC, datetime
+from urllib.parse import quote
+
+from signorini.exceptions import StorageError
+from signorini.provenance.build import COMPLETE, LIBRARY
+
+_COMMANDS = f"{LIBRARY}signorini/commands"
+_CALL = re.compile(r"-m signorini ([\w-]+)(?: ([\w-]+))?")
+_STATUS = "http://schema.org/CompletedActionStatus", "http://schema.org/FailedActionStatus"
+
+
+def add_run(crate, workflow, files, record):
+    """Add how the files came to be.
+
+    Parameters
+    ----------
+    crate : rocrate.rocrate.ROCrate
+    workflow : rocrate.model.entity.Entity
+        The main workflow in it.
+    files : dict
+        Path -> the entity of each file of the crate.
+    record : dict
+        ``provenance.json``.
+
+    Raises
+    ------
+    StorageError
+        If the command of a job is none of the program, or its file is no input.
+    """
+    tools, actions = {}, {}
+    for job in sorted(record["jobs"], key=lambda job: job["started"]):
+        tool = _tool(job, files, record)
+        tools.setdefault(job["rule"], {})[tool.id] = tool
+        actions.setdefault(job["rule"], []).append(_job(crate, job, tool, files))
+    steps = [
+        _step(crate, rule, place, list(used.values()))
+        for place, (rule, used) in enumerate(tools.items(), 1)
+    ]
+    workflow["step"] = compact(steps)
+    controls = [_control(crate, step, actions[step["name"]]) for step in steps]
+    run = _run(crate, workflow, files, record)
+    engine = _engine(crate, run, controls, record)
+    jobs = [action for each in actions.values() for action in each]
+    crate.root_dataset["mentions"] = [run, engine, *jobs]
+    distinct = {name: tool for used in tools.values() for name, tool in used.items()}
+    workflow["hasPart"] = compact(list(distinct.values()))
+
+
+def entity(crate, identifier, kind, **facts):
+    """Add what is no file: a program, a person, an action."""
+    from rocrate.model.contextentity import ContextEntity
+
+    added = crate.add(ContextEntity(crate, identifier, properties={"@type": kind}))
+    for key, value in facts.items():
+        added[key] = value
+    return added
+
+
+def compact(values):
+    """A list, or its only value in its place, as RO-Crate 1.1 asks."""
+    return values[0] if len(values) == 1 else values
+
+
+def _tool(job, files, record):
+    """The source file of a job's command, as a tool."""
+    path = _command_file(job["command"], files)
+    if path is None:
+        raise StorageError(f"{job['rule']}: no command of signorini in its job; build again")
+    tool = files[path]
+    tool.properties()["@type"] = ["File", "SoftwareSourceCode"]
+    words = path.removeprefix(f"{_COMMANDS}/").removesuffix(".py").replace("_", "-").split("/")
+    tool["name"] = " ".join(["signorini", *words])
+    tool["version"] = record["source"]["commit"] or "unknown"
+    return tool
+
+
+def _command_file(command, files):
+    """Of `signorini benchmark point ...` commands/benchmark/point.py, or else benchmark.py."""
+    found = _CALL.search(command)
+    words = [word.replace("-", "_") for word in found.groups("")] if found else []
+    places = ["/".join([_COMMANDS, *words[:count]]) + ".py" for count in (2, 1)]
+    return next((place for place in places if place in files), None)
+
+
+def _job(crate, job, tool, files):
+    """A job: what it was told and read, what it made, and when."""
+    outputs = sorted(job["outputs"])
+    made = [path for output in outputs for path in _files_of(output, files)]
+    return crate.add_action(
+        tool,
+        f"#job/{quote(outputs[0])}",
+        object=compact([files[path] for path in job["reads"] if path in files]),
+        result=compact([files[path] for path in made]),
+        properties={
+            "name": f"{job['rule']}: {outputs[0]}",
+            "description": job["command"],
+            "actionStatus": _STATUS[0],
+            "startTime": _time(job["started"]),
+            "endTime": _time(job["started"] + job["seconds"]),
+        },
+    )
+
+
+def _files_of(output, files):
+    """The files of an output, which may be a folder."""
+    if output in files:
+        return [output]
+    return [path for path in files if path.startswith(f"{output}/")]
+
+
+def _time(seconds):
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds")
+
+
+def _step(crate, rule, place, tools):
+    facts = {"name": rule, "position": str(place), "workExample": compact(tools)}
+    return entity(crate, f"#step/{rule}", "HowToStep", **facts)
+
+
+def _control(crate, step, actions):
+    """What Snakemake did for a step: it started these jobs."""
+    rule = step["name"]
+    facts = {"name": f"jobs of the rule {rule}", "instrument": step, "object": compact(actions)}
+    return entity(crate, f"#control/{rule}", "ControlAction", **facts)
+
+
+def _run(crate, workflow, files, record):
+    """The whole: what it was given, what it made, when, on what machine, and how it ended."""
+    complete, machine = record["state"] == COMPLETE, record["machine"]
+    where = ", ".join(str(machine[key]) for key in ("processor", "system") if machine.get(key))
+    asked = " ".join(["snakemake", *record["asked"]])
+    facts = {
+        "name": f"Run of {asked}",
+        "description": f"{asked}; {len(record['jobs'])} jobs, on {where or 'unknown'}",
+        "actionStatus": _STATUS[not complete],
+        "startTime": _time(min(job["started"] for job in record["jobs"])),
+        "endTime": record["written"],
+    }
+    if not complete:
+        facts["error"] = f"failed: {', '.join(record['failed'])}"
+    given = compact([files[path] for path in record["inputs"] if not _is_program(path)])
+    made = compact([files[path] for path in record["products"]])
+    return crate.add_action(workflow, "#run", object=given, result=made, properties=facts)
+
+
+def _is_program(path):
+    """Whether an input is of the program, and not what it is asked."""
+    return path.startswith((LIBRARY, "workflow/")) or path in ("Snakefile", "requirements.txt")
+
+
+def _engine(crate, run, controls, record):
+    """Snakemake's part: it made the run of its jobs."""
+    snakemake = _snakemake(crate, record["machine"]["versions"].get("snakemake"))
+    facts = {"name": "Snakemake", "instrument": snakemake} | {
+        "object": compact(controls),
+        "result": run,
+    }
+    return entity(crate, "#snakemake", "OrganizeAction", **facts)
+
+
+def _snakemake(crate, version):
+    if version:
+        return package(crate, "snakemake", version)
+    return entity(crate, "https://snakemake.github.io", "SoftwareApplication", name="snakemake")
+
+
+def package(crate, name, version):
+    """A package of PyPI; the same entity when it is asked for again."""
+    address = f"https://pypi.org/project/{name}/{version}/"
+    facts = {"name": name, "softwareVersion": version, "url": address}
+    return crate.get(address) or entity(crate, address, "SoftwareApplication", **facts)

@@ -5,93 +5,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from signorini.api.arguments import described
-from signorini.api.exact import check_functions, read_exact_solution
+from signorini.api.frame import as_frame
+from signorini.api.measures import as_stored, measure_of
 from signorini.api.scene_study import scene_rows
-from signorini.api.solution import Solution
 from signorini.api.solve import solve
-from signorini.errors.measure import exact_measure, reference_measure, row
-from signorini.errors.norms import CONTACT, DOMAIN, RATED
-from signorini.exact import ExactSolution, with_coefficient
+from signorini.errors.measure import row
 from signorini.exceptions import SceneError, SignoriniError
-from signorini.fem.data import BySubdomain
 from signorini.fem.problem import Problem
 from signorini.scene.scene import Scene
-from signorini.wording import nearest
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-
-def measure_of(
-    truth: Any, solution: Solution, norms: Sequence[str] | None
-) -> Callable[[Solution], dict[str, Any]]:
-    """A function from solutions of the kind of one to their errors.
-
-    Parameters
-    ----------
-    truth, norms
-        See `Solution.errors`, also for what is raised.
-    solution : Solution
-
-    Returns
-    -------
-    callable
-    """
-    if isinstance(truth, Solution):
-        return _reference_measure(truth, _checked(norms or DOMAIN, DOMAIN))
-    exact = read_exact_solution(truth)
-    check_functions(exact, solution.problem.mesh)
-    coefficient = None if solution.problem.data is None else solution.problem.data.coefficient
-    if not isinstance(coefficient, BySubdomain):
-        exact = with_coefficient(exact, coefficient)
-    chosen = _checked(norms or _all_norms(exact, solution, coefficient), RATED)
-    if "multiplier_l2" in chosen and isinstance(coefficient, BySubdomain):
-        raise SceneError(
-            "norms: multiplier_l2 needs the coefficient as a number, formula or function, not by "
-            "subdomain; drop it, or give the coefficient so"
-        )
-    if "critical_points" in chosen and not exact.critical_points:
-        raise SceneError(
-            "norms: critical_points needs the exact ones; name them in exact_solution, or drop it"
-        )
-    measure = exact_measure(exact, chosen)
-
-    def errors_of(solution: Solution) -> dict[str, Any]:
-        problem = solution.problem
-        return measure(problem.mesh, solution._stored, problem.coefficient)
-
-    return errors_of
-
-
-def _reference_measure(truth: Solution, norms: Sequence[str]) -> Callable[..., dict[str, Any]]:
-    problem = truth.problem
-    measure = reference_measure(problem.mesh, truth._stored, norms, weight=problem.coefficient)
-
-    def errors_of(solution: Solution) -> dict[str, Any]:
-        problem = solution.problem
-        return measure(problem.mesh, solution._stored, problem.coefficient, solution is truth)
-
-    return errors_of
-
-
-def _all_norms(exact: ExactSolution, solution: Solution, coefficient: Any) -> tuple[str, ...]:
-    """All norms that apply."""
-    if not solution.problem.contact.size:
-        return DOMAIN
-    left_out = set() if exact.critical_points else {"critical_points"}
-    if isinstance(coefficient, BySubdomain):
-        left_out.add("multiplier_l2")
-    return (*DOMAIN, *(norm for norm in CONTACT if norm not in left_out))
-
-
-def _checked(norms: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """The norms that are asked for, if all are known."""
-    if isinstance(norms, str):
-        norms = (norms,)
-    for norm in norms:
-        if norm not in known:
-            raise SceneError(f"norms: unknown norm {norm!r}; {nearest(norm, known)}")
-    return tuple(norms)
 
 
 def convergence(
@@ -174,7 +98,7 @@ def _rows(
         for problem in _several(problem_of_level(n)):
             solution = solve(_of_level(problem, n))
             measure = measure or measure_of(truth, solution, norms)
-            rows.append(row(solution._stored, lambda _, s=solution, m=measure: m(s)))
+            rows.append(row(as_stored(solution), lambda _, s=solution, m=measure: m(s)))
     first = {entry["element"]: k for k, entry in reversed(list(enumerate(rows)))}
     return sorted(rows, key=lambda entry: first[entry["element"]])
 
@@ -233,20 +157,3 @@ def rates(errors: "DataFrame") -> "DataFrame":
     known = errors.astype(object).where(errors.notna(), None)
     known["floor"] = errors["floor"].fillna("")
     return as_frame(rate_rows(known.to_dict("records")))
-
-
-def as_frame(rows: list[dict[str, Any]]) -> "DataFrame":
-    """Rows as a table of pandas.
-
-    Raises
-    ------
-    SceneError
-        If pandas is not installed.
-    """
-    try:
-        import pandas as pd
-    except ModuleNotFoundError:
-        raise SceneError(
-            "a table needs pandas; pip install pandas, or signorini[studies]"
-        ) from None
-    return pd.DataFrame(rows)

@@ -173,7 +173,7 @@ class Solution(SolverSolution):
         >>> round(signorini.solve(problem).errors(exact)["l2"], 4)
         0.0016
         """
-        from signorini.api.convergence import measure_of
+        from signorini.api.measures import measure_of
 
         return measure_of(exact, self, norms)(self)
 
@@ -186,14 +186,15 @@ class Solution(SolverSolution):
             The columns of contact_line.csv: arc length ``s``, ``x``, ``y``, ``u``, ``obstacle``,
             ``flux``, ``binding``, and so on.
         """
-        from signorini.api.convergence import as_frame
+        from signorini.api.frame import as_frame
 
         return as_frame(self._contact_rows())
 
     def _contact_rows(self) -> list[dict[str, Any]]:
+        from signorini.api.measures import as_stored
         from signorini.fem.contact_line import contact_rows
 
-        return contact_rows(self.problem.mesh, self._stored)
+        return contact_rows(self.problem.mesh, as_stored(self))
 
     def plot(self, path: str | Path | None = None, title: str = "") -> "Figure":
         """Draw u, the conditions on the boundary, and where the constraint binds.
@@ -209,10 +210,11 @@ class Solution(SolverSolution):
         -------
         matplotlib.figure.Figure
         """
+        from signorini.api.measures import as_stored
         from signorini.figures.field import draw_field
         from signorini.report.field import field_of
 
-        return saved(draw_field(field_of(self.problem.mesh, self._stored), title), path)
+        return saved(draw_field(field_of(self.problem.mesh, as_stored(self)), title), path)
 
     def plot_contact(self, path: str | Path | None = None) -> "Figure":
         """Draw u over the obstacle, and below it the contact force, along the contact part.
@@ -257,11 +259,12 @@ class Solution(SolverSolution):
         """
         if Path(path).suffix != ".vtu":
             raise SceneError(f"path: {Path(path).name!r} is no VTU file; end it in .vtu")
+        from signorini.api.measures import as_stored
         from signorini.report.vtu import write_vtu
 
         given, mesh = self.problem.coefficient, self.problem.mesh
         coefficient = np.ones(mesh.number_of_triangles) if given is None else given
-        write_vtu(path, mesh, self._stored, {"coefficient": coefficient})
+        write_vtu(path, mesh, as_stored(self), {"coefficient": coefficient})
 
     def to_skfem(self) -> tuple[Any, Floats]:
         """The solution as scikit-fem has it.
@@ -287,13 +290,3 @@ class Solution(SolverSolution):
 
         element = self.problem.finite_element.skfem()
         return skfem.Basis(self.problem.mesh.skfem, element), self.u
-
-    @property
-    def _stored(self) -> Any:
-        """As figures, tables and files take it."""
-        from signorini.mesh.domain import longest_edge
-        from signorini.solvers.stored import stored
-
-        problem = self.problem
-        h = longest_edge(problem.mesh) if problem.h is None else problem.h
-        return stored(problem, self, problem.n or 1, h)

@@ -114,12 +114,12 @@ def test_the_first_page_counts_what_the_studies_kept(update, monkeypatch, tmp_pa
     (tmp_path / "guaranteed/guaranteed.csv").write_text(bounds, encoding="utf-8")
     monkeypatch.setattr(page, "STUDIES", tmp_path)
     assert page.proofs() == {"solutions": 15, "solved": 11, "wrong": 1}
-    assert page.speed() == {"unknowns": "262656", "milliseconds": pytest.approx(31.6)}
+    assert page.speed() == {"unknowns": "262 656", "milliseconds": pytest.approx(31.6)}
     text = page.promises("all 28 numbers met; largest distance 1\n")
     assert "all 28 numbers met (" in text
-    assert "23 of 24 with [a sixth choice]" in text
-    assert "262656 unknowns, takes 32 ms" in text
-    assert "N = 64 lies between 0.020876 and 0.020939" in text  # rounded outward
+    assert "single precision, 23 of 24\n" in text
+    assert "262 656 unknowns, takes 32 ms\n" in text
+    assert "64 by 64 squares lies between 0.020876 and 0.020939" in text  # rounded outward
 
 
 def test_the_first_page_says_none_where_no_solve_is_wrong(update):

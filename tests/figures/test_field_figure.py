@@ -52,6 +52,15 @@ def test_boundary_parts_differ_in_more_than_colour():
     assert len({(artist.get_linewidth(), artist.get_linestyle()) for artist in lines}) == 4
 
 
+def test_contact_by_turns_is_a_bar_of_its_own():
+    pieces = np.array([[[0.0, 0.0], [0.25, 0.0]], [[0.25, 0.0], [0.5, 0.0]]])
+    figure = draw_field(sloping_field() | {"by_turns": pieces})
+    assert "contact by turns" in legend(figure)
+    bar = line(figure, "contact by turns").get_xydata()
+    np.testing.assert_array_equal(bar, [[0, 0], [0.25, 0], [0.5, 0]])
+    assert "contact by turns" not in legend(draw_field(sloping_field()))
+
+
 def test_critical_points_of_a_field_are_marked():
     figure = draw_field(sloping_field("CR"))
     np.testing.assert_array_equal(line(figure, "critical point").get_xydata(), [[0.75, 0]])

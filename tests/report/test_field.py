@@ -6,6 +6,8 @@ from skfem import MeshTri
 
 from builders import delaunay, grid, labelled
 from rings import HELD, ring, solution
+from signorini import load_scene
+from signorini.api.solving import solve_level
 from signorini.fem.contact_line import contact_line
 from signorini.fem.elements import find_element
 from signorini.report.field import field_of
@@ -42,6 +44,22 @@ def test_values_are_those_at_the_corners(mesh, element):
     np.testing.assert_array_equal(
         field["critical_points"], contact_line(mesh, found)["critical_points"]
     )
+
+
+def test_many_neighbouring_critical_points_are_one_interval():
+    """Of a side that touches without force everywhere, every second vertex of P1 binds."""
+    scene = load_scene("config/scenes/uniform-load.yaml")
+    mesh = scene.problem_statement.triangulations.level(16)
+    field = field_of(mesh, solve_level(scene, "P1", 16))
+    assert field["critical_points"].shape == (0, 2)
+    (x, y), h = field["by_turns"].transpose(2, 0, 1), 1 / 16
+    assert (y == 0.0).all()
+    np.testing.assert_allclose(x[1:, 0], x[:-1, 1])  # piece after piece
+    np.testing.assert_allclose([x[0, 0], x[-1, 1]], [h / 2, 1 - h / 2])
+
+
+def test_few_critical_points_stand_alone(mesh, element):
+    assert field_of(mesh, solution(mesh, element))["by_turns"].shape == (0, 2, 2)
 
 
 @pytest.mark.parametrize("label", ["dirichlet", "contact", "neumann"])

@@ -83,6 +83,15 @@ def test_the_critical_points_are_those_of_the_exact_solution(data):
         np.testing.assert_allclose(s, [0.4, 1.6], atol=shown["h"])
 
 
+def test_where_contact_goes_by_turns_is_an_interval():
+    scene = load_scene("config/scenes/uniform-load.yaml")
+    levels = [one for one in solve_levels(scene) if one.element == "P1"]
+    shown = viewer_data(scene, scene.problem_statement.triangulations, levels)["solutions"][-1]
+    ((first, last),) = shown["line"]["turns"]
+    assert shown["line"]["critical"] == []
+    np.testing.assert_allclose([first, last], [shown["h"] / 2, 1 - shown["h"] / 2])
+
+
 def test_components_of_a_contact_line_are_apart_and_keep_their_ends():
     component, nothing = np.repeat([1, 2], [7, 5]), np.zeros(12, bool)
     assert kept_points(component, nothing, most=3).tolist() == [0, 4, 6, 7, 8, 11]

@@ -3,6 +3,7 @@
 import matplotlib
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
 from signorini.figures.frame import Frame
@@ -133,6 +134,7 @@ def paint(axes, field, frame, thickness=1.0):
     exponent = unit_exponent(field["range"])
     contours = _draw_contours(axes, field, frame, 10.0**exponent, thickness)
     draw_boundary(axes, field, frame, thickness)
+    _draw_turns(axes, field["by_turns"], frame, thickness)
     _draw_critical_points(axes, field, frame, thickness)
     axes.set(xlim=(frame.low[0], frame.high[0]), ylim=(frame.low[1], frame.high[1]))
     for side in ("left", "bottom"):
@@ -210,6 +212,37 @@ def _polyline(pieces):
     lines = [np.append(run[:, 0], run[-1:, 1], axis=0) for run in runs]
     gap = np.full((1, 2), np.nan)
     return np.concatenate([part for line in lines for part in (line, gap)][:-1])
+
+
+def style_of_turns(thickness=1.0):
+    """Options of a line where contact goes by turns: white within black.
+
+    Parameters
+    ----------
+    thickness : float, optional
+        See `paint`.
+
+    Returns
+    -------
+    dict
+    """
+    outer = thickness * CRITICAL["markersize"]
+    return {
+        "color": "white",
+        "linewidth": 0.6 * outer,
+        "path_effects": [Stroke(linewidth=outer, foreground=BLACK), Normal()],
+        "solid_joinstyle": "round",
+        "solid_capstyle": "round",
+        "label": "contact by turns",
+    }
+
+
+def _draw_turns(axes, pieces, frame, thickness):
+    """Intervals on which contact goes by turns: as the marker of a critical point, drawn out."""
+    if not len(pieces):
+        return
+    points = frame.place(_polyline(pieces).T)
+    axes.plot(*points, zorder=7, clip_on=False, **style_of_turns(thickness))
 
 
 def _draw_critical_points(axes, field, frame, thickness):

@@ -7,7 +7,7 @@ import matplotlib
 from matplotlib.cm import ScalarMappable
 from matplotlib.lines import Line2D
 
-from signorini.figures.field import BOUNDARY, COLOURS, paint
+from signorini.figures.field import BOUNDARY, COLOURS, paint, style_of_turns
 from signorini.figures.frame import Frame
 from signorini.figures.style import BLACK, CRITICAL, GREY, STYLE, add_axes, new_figure
 from signorini.figures.units import plain, unit_exponent, with_unit
@@ -66,7 +66,7 @@ def draw_gallery(fields):
         for column, scene in enumerate(row):
             _draw_scene(figure, MARGIN + column * CELL, top, *scene)
         top -= height
-    _draw_key(figure)
+    _draw_key(figure, any(len(field["by_turns"]) for _, _, field in fields))
     return figure
 
 
@@ -137,16 +137,16 @@ def _range(field):
     return with_unit(rf"${low:.4g} \leq u \leq {high:.4g}$", exponent)
 
 
-def _draw_key(figure):
+def _draw_key(figure, turns):
     """Say what the lines mean, and which way the colours run, at the foot of the sheet."""
     width, height = figure.get_size_inches()
     lines = [Line2D([], [], label=label, **style) for label, style in BOUNDARY.values()]
     point = Line2D([], [], marker="o", label="critical point", **CRITICAL)
     figure.legend(
-        handles=[*lines, point],
+        handles=[*lines, point, *([Line2D([], [], **style_of_turns())] if turns else [])],
         loc="lower left",
         bbox_to_anchor=(MARGIN / width, MARGIN / height),
-        ncols=5,
+        ncols=6,
         handlelength=2.2,
         columnspacing=1.4,
         borderpad=0,

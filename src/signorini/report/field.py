@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from signorini.fem.contact_line import binding_pieces, contact_line
+from signorini.fem.contact_line import binding_pieces, walk_contact
 from signorini.fem.elements import find_element
 from signorini.mesh.boundary import LABELS
 from signorini.mesh.paths import boundary_paths
+from signorini.report.contact_side import critical_runs
 
 
 def field_of(mesh, solution, most_triangles=20000):
@@ -28,8 +29,10 @@ def field_of(mesh, solution, most_triangles=20000):
         the corners of each triangle; ``range`` (2,), the least and the greatest degree of freedom;
         ``edges_dirichlet``, ``edges_contact`` and ``edges_neumann`` (2, k), vertices of the
         boundary facets in the order in which one walks along them;
-        ``critical_points`` (c, 2); ``binding`` (m, 2, 2), start and end (x, y) of the pieces of
-        contact facets that bind, in the same order.
+        ``critical_points`` (c, 2), those that stand alone; ``by_turns`` (b, 2, 2), start and end
+        (x, y) of the pieces of intervals on which contact goes by turns, see
+        `contact_side.critical_runs`; ``binding`` (m, 2, 2), the same of the pieces of contact
+        facets that bind, in the same order.
     """
     values = find_element(solution.element).vertex_values(mesh, solution.u)
     shown, values = _coarsened(mesh, values, most_triangles)
@@ -40,9 +43,31 @@ def field_of(mesh, solution, most_triangles=20000):
         "values": values,
         "range": np.array([solution.u.min(), solution.u.max()]),
         **edges,
-        "critical_points": contact_line(mesh, solution)["critical_points"],
+        **_critical_parts(mesh, solution),
         "binding": binding_pieces(mesh, solution),
     }
+
+
+def _critical_parts(mesh, solution):
+    """Critical points that stand alone, and the pieces of intervals full of them."""
+    element = find_element(solution.element)
+    line = walk_contact(mesh, element, solution.contact, solution.active)
+    places = line.critical[~np.isnan(line.critical)]
+    alone, intervals = critical_runs({"s": line.s, "critical": line.critical})
+    pieces = [_pieces_between(line, places, *ends) for ends in intervals]
+    return {
+        "critical_points": line.critical_points[:, np.isin(places, alone)].T,
+        "by_turns": np.concatenate([np.zeros((0, 2, 2)), *pieces]),
+    }
+
+
+def _pieces_between(line, places, first, last):
+    """Pieces of the line, dof after dof, between two arc lengths."""
+    arcs = np.append(line.s, places)
+    order = np.argsort(arcs, kind="stable")
+    within = order[(arcs[order] >= first) & (arcs[order] <= last)]
+    points = np.append(line.points, line.critical_points, axis=1)[:, within].T
+    return np.stack([points[:-1], points[1:]], axis=1)
 
 
 def sums_on_coarser(mesh, values, most_triangles):

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.errors.norms import NORMS
 from signorini.fem.contact_line import contact_rows, critical_places
 from signorini.fem.element_facts import ELEMENT_FACTS
+from signorini.report.contact_side import critical_runs
 from signorini.report.field import field_of, sums_on_coarser
 from signorini.scene.certified import is_certifiable
 from signorini.solvers.stored import mesh_of
@@ -164,7 +165,11 @@ def packed(values, kind):
 
 
 def _line(mesh, solution):
-    """The contact line, its components apart by NaN; None without a contact part."""
+    """The contact line, its components apart by NaN; None without a contact part.
+
+    ``critical`` has s, x, y and the obstacle of critical points that stand alone, ``turns`` the
+    ends of the intervals on which contact goes by turns.
+    """
     rows = contact_rows(mesh, solution)
     if not rows:
         return None
@@ -173,6 +178,7 @@ def _line(mesh, solution):
     critical = np.array([row["critical"] is not None for row in rows])
     place, x, y = critical_places(mesh, solution)
     height = np.interp(place, columns["s"], columns["obstacle"])
+    alone, turns = critical_runs({"s": columns["s"], "critical": place})
     kept = kept_points(component, critical)
     ends = np.flatnonzero(np.diff(component[kept])) + 1
     shown = {name: np.insert(column[kept], ends, np.nan) for name, column in columns.items()}
@@ -180,7 +186,8 @@ def _line(mesh, solution):
         del shown["threshold"]
     return {
         "columns": {name: packed(column, "f4") for name, column in shown.items()},
-        "critical": np.array([place, x, y, height]).T.tolist(),
+        "critical": np.array([place, x, y, height]).T[np.isin(place, alone)].tolist(),
+        "turns": turns.tolist(),
     }
 
 

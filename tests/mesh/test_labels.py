@@ -140,11 +140,6 @@ def test_parts_inside_the_domain_or_across_it_are_refused():
             label_boundary(named, RULES | {"cut": "contact"})
 
 
-def test_minimum_angle():
-    assert MESH.minimum_angle == pytest.approx(45)
-    assert criss_cross(1, 1, (0, 0), (1e9, 1e-9)).minimum_angle == pytest.approx(np.degrees(1e-18))
-
-
 @given(
     parts=st.lists(st.tuples(st.sampled_from(sorted(RULES)), st.sampled_from(LABELS)), max_size=6),
     lines=st.lists(

@@ -82,7 +82,9 @@ def _chain(value, slope, bend, t):
 
 def _multiply(s, t):
     """Product rule."""
-    return Jet(s.u * t.u, s.u * t.du + s.du * t.u, s.u * t.ddu + 2 * s.du * t.du + s.ddu * t.u)
+    slope = s.u * t.du + s.du * t.u
+    bend = s.u * t.ddu + 2 * s.du * t.du + s.ddu * t.u
+    return Jet(s.u * t.u, slope, bend)
 
 
 def _divide(s, t):

@@ -80,36 +80,3 @@ def _edge_vectors(mesh):
         points = mesh.p.astype(EXTENDED)
         corners = points[:, mesh.t].transpose(1, 0, 2)
     return np.roll(corners, -1, axis=0) - corners
-
-
-def extended_stiffness(mesh, element, coefficient=None):
-    """The stiffness matrix of `couplings`.
-
-    Parameters
-    ----------
-    mesh, element, coefficient
-        See `couplings`.
-
-    Returns
-    -------
-    scipy.sparse.csr_array of longdouble, shape (ndof, ndof)
-        Unit of the coefficient.
-
-    Examples
-    --------
-    The five-point stencil of the vertex in the middle, and of the corner below it on the left:
-
-    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
-    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
-    >>> extended_stiffness(mesh, "P1").toarray()[[4, 0]].astype(float) + 0.0
-    array([[ 0. , -1. ,  0. , -1. ,  4. , -1. ,  0. , -1. ,  0. ],
-           [ 1. , -0.5,  0. , -0.5,  0. ,  0. ,  0. ,  0. ,  0. ]])
-    """
-    from scipy.sparse import coo_array
-
-    first, second, weight, _ = couplings(mesh, element, coefficient)
-    size = find_element(element).size(mesh)
-    entries = np.concatenate([-weight, -weight, weight, weight])
-    rows = np.concatenate([first, second, first, second])
-    columns = np.concatenate([second, first, first, second])
-    return coo_array((entries, (rows, columns)), shape=(size, size)).tocsr()

@@ -9,7 +9,7 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import LABELS, SIDES, part_key
 from signorini.mesh.facets import pair_keys, unique_facets
-from signorini.mesh.geometry import cross, point_text
+from signorini.mesh.geometry import point_text
 from signorini.mesh.triangulation import Triangulation
 from signorini.wording import listed
 
@@ -70,26 +70,6 @@ class NamedMesh:
         """Midpoints of the boundary facets, shape (2, nb)."""
         a, b = self.facets[:, self.boundary]
         return 0.5 * self.p[:, a] + 0.5 * self.p[:, b]
-
-    @property
-    def minimum_angle(self):
-        """Smallest angle of any triangle, degrees.
-
-        Examples
-        --------
-        >>> from signorini.mesh.patterns import criss_cross
-        >>> float(criss_cross(2, 2, (0, 0), (1, 1)).minimum_angle)
-        45.0
-        """
-        corners = [self.p[:, v] for v in self.t]
-        smallest = np.inf
-        for k in range(3):
-            u, v = corners[k - 2] - corners[k], corners[k - 1] - corners[k]
-            scale = np.abs([u, v]).max()
-            u, v = u / scale, v / scale
-            angle = np.arctan2(np.abs(cross(u, v)), (u * v).sum(axis=0))
-            smallest = min(smallest, float(angle.min()))
-        return np.degrees(smallest)
 
 
 def with_sides(mesh):

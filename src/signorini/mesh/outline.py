@@ -115,15 +115,20 @@ def _touch(q, edges, i, j, resolution):
 def _crossing(q, edges, i, j):
     """The first pair of segments (i, j) without common end of which each separates the other's."""
     (a, b), (c, d) = edges[:, i], edges[:, j]
-    ab, cd = q[:, b] - q[:, a], q[:, d] - q[:, c]
     apart = (a != c) & (a != d) & (b != c) & (b != d)
-    c_on_left, d_on_left = cross(ab, q[:, c] - q[:, a]) > 0, cross(ab, q[:, d] - q[:, a]) > 0
-    a_on_left, b_on_left = cross(cd, q[:, a] - q[:, c]) > 0, cross(cd, q[:, b] - q[:, c]) > 0
-    crossing = apart & (c_on_left != d_on_left) & (a_on_left != b_on_left)
+    crossing = apart & _separates(q, (a, b), (c, d)) & _separates(q, (c, d), (a, b))
     if crossing.any():
         k = np.argmax(crossing)
         return "cross", int(i[k]), int(j[k])
     return None
+
+
+def _separates(q, segment, points):
+    """Whether the two points of each pair lie on different sides of the line of a segment."""
+    start, end = (q[:, ends] for ends in segment)
+    along = end - start
+    first, second = (cross(along, q[:, point] - start) > 0 for point in points)
+    return first != second
 
 
 def _pinch(q, edges):

@@ -64,13 +64,15 @@ def choose_route(problem, method, accuracy="full"):
             )
         return method, REQUESTED
     why_not = _why_not("fourier", problem)
-    if not why_not:
-        condition = (
-            "equal conditions beside the contact side"
-            if problem.contact.size
-            else "no contact part: plain Poisson"
-        )
-        return "fourier", f"uniform grid, {condition}"
+    if why_not:
+        return _general_route(problem, why_not, accuracy)
+    beside = "equal conditions beside the contact side"
+    condition = beside if problem.contact.size else "no contact part: plain Poisson"
+    return "fourier", f"uniform grid, {condition}"
+
+
+def _general_route(problem, why_not, accuracy):
+    """The same where the fourier route does not apply, and why it does not."""
     if problem.b.size <= _DIRECT_UP_TO[accuracy]:
         return "direct", why_not
     from signorini.solvers.conditioning import is_nested, is_regular

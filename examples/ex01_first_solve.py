@@ -1,17 +1,21 @@
 r"""A first solve: a membrane over a rigid floor.
 
-A membrane over the unit square is held at height 0 along its top side and pulled by the load f.
+A membrane over the unit square is held at height 0 along its top side and pulled by the load $f$.
 Along its bottom side it must not sink below the floor, the obstacle 0; there the floor may push it
 up, and cannot pull it down:
 
-    -Laplace u = f                  inside,
-             u = 0                  on the top,
-         du/dn = 0                  on the left and on the right,
-    u >= 0,  du/dn >= 0,  u du/dn = 0   on the bottom.
+$$
+\begin{aligned}
+-\Delta u &= f && \text{inside}, \\
+u &= 0 && \text{on the top}, \\
+\partial_\nu u &= 0 && \text{on the left and on the right}, \\
+u \ge 0, \quad \partial_\nu u \ge 0, \quad u\,\partial_\nu u &= 0 && \text{on the bottom}.
+\end{aligned}
+$$
 
-This is Signorini's problem for one scalar unknown. With f = 2 pi sin(2 pi x) the load lifts the
-left half and presses the right one down, so that the membrane touches the floor on a part of the
-bottom that nobody knows beforehand. Where it starts to touch there is a critical point.
+This is Signorini's problem for one scalar unknown. With $f = 2 \pi \sin (2 \pi x)$ the load lifts
+the left half and presses the right one down, so that the membrane touches the floor on a part of
+the bottom that nobody knows beforehand. Where it starts to touch there is a critical point.
 """
 
 import numpy as np

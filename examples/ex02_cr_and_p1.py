@@ -2,12 +2,13 @@ r"""Crouzeix-Raviart against P1: the same problem, two elements.
 
 Both elements are affine on every triangle. They differ in what holds them together:
 
-    P1   has its unknowns at the vertices, and is continuous;
-    CR   has them at the midpoints of the sides, and jumps elsewhere.
+- P1 has its unknowns at the vertices, and is continuous;
+- CR has them at the midpoints of the sides, and jumps elsewhere.
 
-So the constraint u >= 0 holds at the vertices of the contact side for P1, which makes its functions
-admissible: its energy is never below the least one. For CR it holds at the midpoints, that is for
-the mean over each side, and its functions are not admissible. CR has three times the unknowns.
+So the constraint $u \ge 0$ holds at the vertices of the contact side for P1, which makes its
+functions admissible: its energy is never below the least one. For CR it holds at the midpoints,
+that is for the mean over each side, and its functions are not admissible. CR has three times the
+unknowns.
 
 A fine P1 solution on a mesh that was refined from both serves as the truth.
 """

@@ -1,11 +1,13 @@
 r"""An obstacle from data: a floor that was measured.
 
 The obstacle need not be a formula. Here it is a floor whose height was measured at a dozen
-stations, and runs straight between them. Any function of the coordinates will do that takes arrays
-of x and y and returns an array of the same shape: `np.interp` is one, a spline of SciPy or an image
-would be others.
+stations, and runs straight between them:
 
-    u >= alpha on the bottom,   alpha = interpolation of the measurements.
+$$u \ge \alpha \quad \text{on the bottom}, \qquad
+\alpha = \text{interpolation of the measurements}.$$
+
+Any function of the coordinates will do that takes arrays of x and y and returns an array of the
+same shape: `np.interp` is one, a spline of SciPy or an image would be others.
 
 Such an obstacle has kinks, and the membrane touches it in several places: on top of each bump.
 """

@@ -1,9 +1,11 @@
 r"""Contact force and resultant: who carries the load?
 
-The contact force is k du/dn on the contact part. Its integral, the resultant, need not be computed
-from a gradient, which would cost an order of accuracy. Test the discrete equation with v = 1:
+The contact force is $k \thinspace \partial_\nu u$ on the contact part. Its integral, the resultant,
+need not be computed from a gradient, which would cost an order of accuracy. Test the discrete
+equation with $v = 1$:
 
-    0 = a(u, 1) = (f, 1) + <g, 1> + reaction of the Dirichlet part + resultant,
+$$0 = a(u, 1) = \int_\Omega f + \int_{\Gamma_N} g +
+\text{reaction of the Dirichlet part} + \text{resultant},$$
 
 since 1 has no gradient. So the discrete forces balance exactly, on every mesh: what the load brings
 is carried by the floor and by the support, to the last digit but rounding. What converges is how

@@ -2,11 +2,11 @@ r"""A convergence study with pandas.
 
 The exact solution `corner` of the library,
 
-    u = r^(3/2) cos(3 theta / 2)   about the critical point,
+$$u = r^{3/2} \cos \tfrac{3}{2} \theta \quad \text{about the critical point},$$
 
 is what every solution of a Signorini problem looks like where contact begins: there its second
-derivatives are unbounded, so that u is in H^s for s < 5/2 only. Does that spoil the rates? The
-theory says: not for affine elements.
+derivatives are unbounded, so that $u$ is in $H^s$ for $s < 5/2$ only. Does that spoil the rates?
+The theory says: not for affine elements.
 
 `signorini.convergence` solves on every level and returns a table, one row for each solution;
 `signorini.rates` fits the slopes. Both are tables of pandas, with the columns of `errors.csv` and

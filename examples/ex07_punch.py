@@ -1,16 +1,17 @@
 r"""A punch: contact between two critical points, and its force.
 
-The family `punch` of exact solutions has contact for |x| <= a on the line y = 0, where
+The family `punch` of exact solutions has contact for $\lvert x \rvert \le a$ on the line $y = 0$,
+where
 
-    du/dn = sqrt(a^2 - x^2),
+$$\partial_\nu u = \sqrt{a^2 - x^2},$$
 
 which is the pressure that Hertz found under a cylinder pressed against a half space. At both ends
 its derivative is unbounded. The whole force is half the area of a disc,
 
-    integral of sqrt(a^2 - x^2) from -a to a  =  pi a^2 / 2.
+$$\int_{-a}^{a} \sqrt{a^2 - x^2} = \tfrac{1}{2} \pi a^2 .$$
 
-The resultant is far more accurate than the pressure at the contact points: it converges with h^2,
-and the pressure where it is worst, at the ends, hardly with h^(1/2).
+The resultant is far more accurate than the pressure at the contact points: it converges with $h^2$,
+and the pressure where it is worst, at the ends, hardly with $h^{1/2}$.
 """
 
 import numpy as np

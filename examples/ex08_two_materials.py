@@ -1,14 +1,15 @@
 r"""Two materials: a coefficient that jumps.
 
-    -div(k grad u) = f,   k = 1 in the soft part, k = 20 in the stiff one.
+$$-\mathrm{div}\thinspace(k \nabla u) = f, \qquad
+k = 1 \text{ in the soft part}, \quad k = 20 \text{ in the stiff one}.$$
 
-Across the interface u and the flux k du/dn are continuous, so that du/dn jumps by the ratio of the
-two coefficients. A mesh that follows the interface has the coefficient constant on each triangle,
-and costs no accuracy.
+Across the interface $u$ and the flux $k \thinspace \partial_\nu u$ are continuous, so that
+$\partial_\nu u$ jumps by the ratio of the two coefficients. A mesh that follows the interface has
+the coefficient constant on each triangle, and costs no accuracy.
 
 The mesh is one of scikit-fem, with named subdomains, which are kept: `coefficient` gives each its
-number. The contact force is now k du/dn. Under the same load the soft part sags onto the floor,
-while the stiff one spans it free.
+number. The contact force is now $k \thinspace \partial_\nu u$. Under the same load the soft part
+sags onto the floor, while the stiff one spans it free.
 """
 
 import numpy as np

@@ -1,17 +1,18 @@
 r"""An exact solution of your own, and whether it is one.
 
-Hansbo and Larson (2005) test their method with a solution that is known on [-1, 1] x [0, 1]:
+Hansbo and Larson (2005) test their method with a solution that is known on
+$[-1, 1] \times [0, 1]$:
 
-    u = max(x, 0)^3 - y max(-x, 0)^3,   f = -6 max(x, 0) + 6 y max(-x, 0).
+$$u = \max(x, 0)^3 - y \max(-x, 0)^3, \qquad f = -6 \max(x, 0) + 6 y \max(-x, 0) .$$
 
-On the contact side y = 0 it is max(x, 0)^3 >= 0, and its flux du/dn = -du/dy is max(-x, 0)^3 >= 0;
-one of the two is zero everywhere. So it solves the problem with the obstacle 0, and the origin is
-its critical point.
+On the contact side $y = 0$ it is $\max(x, 0)^3 \ge 0$, and its flux
+$\partial_\nu u = -\partial_y u$ is $\max(-x, 0)^3 \ge 0$; one of the two is zero everywhere. So it
+solves the problem with the obstacle 0, and the origin is its critical point.
 
-Given as functions, u comes with its gradient and its load. The library believes none of it: the
-gradient is held against differences of u, the load against differences of the gradient, data and
-Signorini's conditions against u, all before anything is solved. As a formula, `"pos(x)**3 -
-y*pos(-x)**3"`, gradient and load would be derived.
+Given as functions, $u$ comes with its gradient and its load. The library believes none of it: the
+gradient is held against differences of $u$, the load against differences of the gradient, data and
+Signorini's conditions against $u$, all before anything is solved. As a formula,
+`"pos(x)**3 - y*pos(-x)**3"`, gradient and load would be derived.
 """
 
 import numpy as np

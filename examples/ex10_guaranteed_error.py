@@ -4,7 +4,8 @@ A body with a notch is pressed on its foundation. Its solution has no formula; a
 give another approximation, and so only another guess. But P1 and CR on the *same* mesh say for
 certain how far each of them is from the solution of the continuous problem:
 
-    lower <= (int |grad(u - u_h)|^2)^(1/2) <= upper.
+$$\text{lower} \le
+\left( \int_\Omega \lvert \nabla (u - u_h) \rvert^2 \right)^{1/2} \le \text{upper} .$$
 
 The P1 solution is admissible, so that its energy is too high. From the CR solution follows a flux
 that is in equilibrium with the load, so that its energy is too low. What lies between the two

@@ -13,7 +13,7 @@ rule errors:
             "results/{scene}/errors.csv",
             caption="../report/errors.rst",
             category="{scene}",
-            labels={"shows": "errors of every solution"},
+            labels={"shows": "2 errors of every solution"},
         ),
     log:
         "results/{scene}/logs/errors.log",

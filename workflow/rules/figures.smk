@@ -28,7 +28,7 @@ rule figure_surface:
             "results/{scene}/surface.png",
             caption="../report/surface.rst",
             category="{scene}",
-            labels={"shows": "reference solution"},
+            labels={"shows": "3 reference solution"},
         ),
     log:
         "results/{scene}/logs/figure_surface.log",
@@ -90,7 +90,7 @@ rule figures:
             patterns=["{figure}.png"],
             caption="../report/figures.rst",
             category="{scene}",
-            labels={"shows": "figure: {figure}"},
+            labels={"shows": "3 figure: {figure}"},
         ),
     log:
         "results/{scene}/logs/figures.log",
@@ -138,7 +138,7 @@ rule figures_of_details:
             patterns=["{figure}.png"],
             caption="../report/details.rst",
             category="{scene}",
-            labels={"shows": "details: {figure}"},
+            labels={"shows": "5 details: {figure}"},
         ),
     log:
         "results/{scene}/logs/figures_of_details.log",
@@ -208,7 +208,7 @@ rule viewer:
             "results/{scene}/viewer.html",
             caption="../report/viewer.rst",
             category="{scene}",
-            labels={"shows": "solutions to turn"},
+            labels={"shows": "4 solutions to turn"},
         ),
     log:
         "results/{scene}/logs/viewer.log",

@@ -19,7 +19,7 @@ use rule figure_surface as named_surface with:
             "results/{scene}/{surface}.png",
             caption="../report/surface.rst",
             category="{scene}",
-            labels={"shows": "reference solution"},
+            labels={"shows": "3 reference solution"},
         ),
     log:
         "results/{scene}/logs/{surface}.log",
@@ -46,7 +46,7 @@ for name in scenes_with_names():
                         f"results/{{scene}}/{stem}.png",
                         caption="../report/convergence.rst",
                         category="{scene}",
-                        labels={"shows": f"figure: {norm}"},
+                        labels={"shows": f"3 figure: {norm}"},
                     )
                     for norm, stem in norm_figures(name).items()
                 ],
@@ -79,7 +79,7 @@ rule check:
             "results/{scene}/check.csv",
             caption="../report/check.rst",
             category="{scene}",
-            labels={"shows": "check against published numbers"},
+            labels={"shows": "1 check against published numbers"},
         ),
     log:
         "results/{scene}/logs/check.log",
@@ -153,7 +153,7 @@ rule paper:
             "results/{scene}/paper.pdf",
             caption="../report/paper.rst",
             category="{scene}",
-            labels={"shows": "article"},
+            labels={"shows": "7 article"},
         ),
     log:
         "results/{scene}/logs/paper.log",

@@ -50,7 +50,7 @@ rule sweep_figure:
             "results/{scene}/sweep.png",
             caption="../report/sweep.rst",
             category="{scene}",
-            labels={"shows": "sweep"},
+            labels={"shows": "6 sweep"},
         ),
     log:
         "results/{scene}/logs/sweep_figure.log",

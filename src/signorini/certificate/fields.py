@@ -70,7 +70,14 @@ class Flux:
     moments: np.ndarray | None = None
 
     def with_bubbles(self, bubbles):
-        """The same flux with other bubbles."""
+        """The same flux with other bubbles.
+
+        Examples
+        --------
+        >>> flux = Flux(np.zeros(3), np.zeros(3))
+        >>> flux.with_bubbles(np.ones(3)).bubbles.tolist()
+        [1.0, 1.0, 1.0]
+        """
         return replace(self, bubbles=bubbles)
 
 
@@ -112,7 +119,20 @@ class Field:
         return Field(factor * self.starts, factor * self.ends, rises)
 
     def squared(self, piece):
-        """The integral of the square over each triangle, shape (m,)."""
+        """The integral of the square over each triangle, shape (m,).
+
+        Examples
+        --------
+        grad x has the square 1 at each point of a triangle of area 1/2:
+
+        >>> from signorini.certificate.pieces import Topology
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> piece = next(Topology(grid).pieces())
+        >>> flow = flow_on(piece, grid.corner_values(grid.p[0])[:, piece.cells])
+        >>> float(Field(flow, flow).squared(piece)[0])
+        0.5
+        """
         s, t = self.starts, self.ends
         z = s[NEXT] - t[LAST]
         total = 0.0
@@ -177,7 +197,19 @@ def gradient_on(piece, potential):
 
 
 def flow_on(piece, values):
-    """k grad v . n over each facet of an affine function: both ends alike, (3, m)."""
+    """k grad v . n over each facet of an affine function: both ends alike, (3, m).
+
+    Examples
+    --------
+    The flux of grad x out of a triangle is 0 in all:
+
+    >>> from signorini.certificate.pieces import Topology
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+    >>> piece = next(Topology(grid).pieces())
+    >>> flow_on(piece, grid.corner_values(grid.p[0])[:, piece.cells]).ravel().tolist()
+    [0.0, 1.0, -1.0]
+    """
     rise = values[NEXT] - values
     rise *= 2.0 * piece.coefficient * piece.couplings
     return rise[NEXT] - rise[LAST]

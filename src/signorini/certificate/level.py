@@ -101,6 +101,15 @@ def loads_exactly(statement):
     Returns
     -------
     bool
+
+    Examples
+    --------
+    The paper's centroid rule is none that is exact:
+
+    >>> from signorini import load_scene
+    >>> scenes = [load_scene(f"config/scenes/{name}.yaml") for name in ("paper", "punch")]
+    >>> [loads_exactly(scene.problem_statement) for scene in scenes]
+    [False, True]
     """
     exact = replace(statement, **_EXACTLY)
     same = all(getattr(statement, name) == getattr(exact, name) for name in _EXACTLY)

@@ -88,7 +88,18 @@ class Trace:
         return self.start[:, :, None] + along[:, :, None] * s
 
     def at(self, datum, s):
-        """A datum at the fractions `s`, shape (q,), of each facet: (m, q)."""
+        """A datum at the fractions `s`, shape (q,), of each facet: (m, q).
+
+        Examples
+        --------
+        >>> from signorini.certificate.pieces import Topology
+        >>> from signorini.formula import Formula
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> trace(Topology(grid), "contact").at(Formula("4*x"), np.array([0.25, 0.5])).tolist()
+        [[1.0, 2.0]]
+        """
         normal = ()
         if getattr(datum, "needs_normal", False):
             normal = self.normal[:, :, None]
@@ -161,7 +172,18 @@ def given_on(topology, trace, datum):
 
 
 def sampled(topology, trace, datum, s):
-    """A datum at the fractions `s`, shape (q,), of each facet; zero where none is given: (m, q)."""
+    """A datum at the fractions `s`, shape (q,), of each facet; zero where none is given: (m, q).
+
+    Examples
+    --------
+    >>> from signorini.certificate.pieces import Topology
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> topology = Topology(Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    >>> sampled(topology, trace(topology, "contact"), Formula("4*x"), np.array([0.25])).tolist()
+    [[1.0]]
+    """
     values = np.zeros((trace.facets.size, s.size))
     for chosen, own in given_on(topology, trace, datum):
         values[chosen] = own.constant if own.constant is not None else trace.only(chosen).at(own, s)

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.fem.data import Data
 from signorini.fem.elements import find_element
+from signorini.fem.residual import contact_fluxes_of
 from signorini.fem.stencil import apply_stiffness, contact_fluxes, diagonal
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
@@ -181,8 +182,6 @@ class Problem:
         >>> bool(np.all(np.abs(force) <= fluxes)), bool(np.all(fluxes <= sizes))
         (True, True)
         """
-        from signorini.fem.residual import contact_fluxes_of
-
         if not self.contact.size:
             return np.zeros((3, 0))
         if self.grid is not None:

@@ -135,6 +135,17 @@ def number_decades(axis, most):
         Logarithmic, with its limits.
     most : int
         Numbers, at most.
+
+    Examples
+    --------
+    Five at most of eight decades:
+
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> _ = axes.set(xscale="log", xlim=(1.0, 1e8))
+    >>> number_decades(axes.xaxis, 5)
+    >>> axes.get_xticks().tolist()
+    [1.0, 100.0, 10000.0, 1000000.0, 100000000.0]
     """
     low, high = (math.log10(limit) for limit in axis.get_view_interval())
     first, last = math.ceil(low), math.floor(high)

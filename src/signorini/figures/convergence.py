@@ -169,6 +169,14 @@ def label_levels(axes, levels):
     axes : matplotlib.axes.Axes
     levels : dict of int to float
         n -> h; where h is 1/n, the label says so.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> label_levels(axes, {4: 0.25, 8: 0.125})
+    >>> [label.get_text() for label in axes.get_xticklabels()]
+    ['1/4', '1/8']
     """
     names = [f"1/{n}" if math.isclose(n * h, 1) else f"{h:.2g}" for n, h in levels.items()]
     longest = max(map(len, names), default=0)

@@ -55,6 +55,14 @@ class Frame:
         -------
         ndarray, shape (2, k)
             In the units that `label` names, from the offset that it names.
+
+        Examples
+        --------
+        In thousandths where the domain is as small as that:
+
+        >>> frame = Frame(np.array([[0.0, 0.002, 0.002], [0.0, 0.0, 0.001]]))
+        >>> frame.place(np.array([[0.002], [0.001]])).ravel().round(12).tolist()
+        [2.0, 1.0]
         """
         units = [[10.0**exponent] for exponent in self.exponents]
         return (points - self.offset[:, None]) / units
@@ -71,6 +79,12 @@ class Frame:
         -------
         width, height : float
             In inches.
+
+        Examples
+        --------
+        >>> frame = Frame(np.array([[0.0, 2.0, 2.0], [0.0, 0.0, 1.0]]))
+        >>> [float(side) for side in frame.fit(10.0)]
+        [10.0, 5.0]
         """
         return self.shape[0] * side, self.shape[1] * side
 
@@ -86,6 +100,11 @@ class Frame:
         Returns
         -------
         str
+
+        Examples
+        --------
+        >>> Frame(np.array([[0.0, 2.0, 2.0], [0.0, 0.0, 1.0]])).label(0, "x")
+        '$x$'
         """
         offset = self.offset[axis]
         sign = "-" if offset > 0 else "+"

@@ -41,6 +41,14 @@ def name_rows_and_columns(axes, rows, columns):
     axes : matplotlib.axes.Axes
     rows, columns : sequence of str
         Empty text where a name would only repeat that of the table beside.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> name_rows_and_columns(axes, ["P1", "CR"], ["white"])
+    >>> [label.get_text() for label in axes.get_yticklabels()]
+    ['P1', 'CR']
     """
     axes.set_xticks(
         range(len(columns)),

@@ -71,6 +71,14 @@ def draw_triangle(axes, along, up, order):
     along, up : (float, float)
         What `triangle_below` returns.
     order : float
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> draw_triangle(axes, (0.1, 0.2), (0.01, 0.04), order=2)
+    >>> [text.get_text() for text in axes.texts]
+    ['$1$', '$2$']
     """
     (left, right), (bottom, top) = along, up
     axes.plot([left, right, right, left], [bottom, bottom, top, bottom], color=GREY, linewidth=0.7)

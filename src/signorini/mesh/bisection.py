@@ -80,6 +80,16 @@ def bisectable(mesh):
     Triangulation
         The mesh itself where it is bisected already. Otherwise the same vertices and triangles,
         these turned; the meshes that it was refined from remain its coarser ones.
+
+    Examples
+    --------
+    In each triangle the longest edge, here the diagonal, is the first one:
+
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = bisectable(Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels))
+    >>> (mesh.p[:, mesh.t[0]] - mesh.p[:, mesh.t[1]]).T.tolist()
+    [[1.0, -1.0], [-1.0, 1.0]]
     """
     if isinstance(mesh, Bisected):
         return mesh
@@ -160,6 +170,15 @@ def over_ancestors(mesh, values):
     -------
     least, mean, greatest : ndarray, shape (nt of mesh.coarser(),)
         The mean by area; unit of the values.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> fine = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> least, mean, greatest = over_ancestors(fine, np.arange(8.0))
+    >>> least.tolist(), mean.tolist(), greatest.tolist()
+    ([0.0, 3.0], [1.75, 5.25], [4.0, 7.0])
     """
     if not isinstance(mesh, Bisected):
         family = mesh.children(values[None])[:, 0]

@@ -66,6 +66,14 @@ class BoundaryTrace:
             Unit of length.
         facets : ndarray of int, shape (counts.sum(),)
             The place of each point's facet among the m facets.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> find_boundary_trace(grid, "contact").evenly_spaced(np.array([2]))[0].tolist()
+        [[0.25, 0.75], [0.0, 0.0]]
         """
         facets = np.repeat(np.arange(counts.size), counts)
         first = np.repeat(np.cumsum(counts) - counts, counts)

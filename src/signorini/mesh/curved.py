@@ -149,7 +149,14 @@ def true_places(mesh, facets, points, normals):
 
 
 def curves_of(mesh):
-    """The curved parts of a mesh's boundary, name -> curve."""
+    """The curved parts of a mesh's boundary, name -> curve.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> curves_of(load_scene("config/scenes/paper.yaml").problem_statement.triangulations.level(4))
+    {}
+    """
     return getattr(mesh, "curves", {})
 
 
@@ -178,6 +185,15 @@ def nearest_on(curve, name, p):
     ------
     MeshError, FormulaError
         Where there is none.
+
+    Examples
+    --------
+    >>> from signorini.mesh.curves import Circle
+    >>> nearest_on(Circle((0.0, 0.0), 1.0), "rim", np.array([[3.0], [0.0]])).ravel().tolist()
+    [1.0, 0.0]
+    >>> nearest_on(Circle((0.0, 0.0), 1.0), "rim", np.zeros((2, 1)))
+    Traceback (most recent call last):
+    signorini.exceptions.MeshError: domain.boundary_shape.rim: a point at the centre ...
     """
     try:
         return curve.nearest(p)

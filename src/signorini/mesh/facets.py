@@ -58,6 +58,13 @@ def pair_keys(ends, count):
     Returns
     -------
     ndarray of int64, shape (k,)
+
+    Examples
+    --------
+    A pair has one number, whichever end comes first:
+
+    >>> pair_keys(np.array([[0, 3, 1], [3, 0, 2]]), count=4)
+    array([3, 3, 6])
     """
     return np.minimum(*ends).astype(np.int64) * count + np.maximum(*ends)
 

@@ -137,6 +137,13 @@ def from_meshio(mesh):
     ------
     MeshError
         If it is no triangulation.
+
+    Examples
+    --------
+    >>> import meshio
+    >>> points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    >>> from_meshio(meshio.Mesh(points, [("triangle", [[0, 1, 2]])])).t.T.tolist()
+    [[0, 1, 2]]
     """
     try:
         raw = arrays_of(*read_meshio(mesh))

@@ -37,7 +37,13 @@ class EdgeLayout:
 
     @property
     def row_length(self):
-        """Number of edges that leave a row of vertices to the right and upwards."""
+        """Number of edges that leave a row of vertices to the right and upwards.
+
+        Examples
+        --------
+        >>> EdgeLayout(2, 2, "falling").row_length
+        7
+        """
         return 3 * self.nx + 1
 
     @cached_property
@@ -61,7 +67,13 @@ class EdgeLayout:
 
     @cached_property
     def positions(self):
-        """Positions of each horizontal, vertical and diagonal edge in a row, three arrays."""
+        """Positions of each horizontal, vertical and diagonal edge in a row, three arrays.
+
+        Examples
+        --------
+        >>> [part.tolist() for part in EdgeLayout(2, 2, "falling").positions]
+        [[0, 2], [1, 4, 6], [3, 5]]
+        """
         row = np.arange(self.row_length, dtype=np.int32)
         return tuple(
             np.concatenate([row[in_row] for in_row, _ in family]) for family in self._slices
@@ -69,7 +81,14 @@ class EdgeLayout:
 
     @cached_property
     def columns_and_families(self):
-        """Of each position in a row the edge's column and family (0, 1, 2), shape (2, 3 nx + 1)."""
+        """Of each position in a row the edge's column and family (0, 1, 2), shape (2, 3 nx + 1).
+
+        Examples
+        --------
+        >>> EdgeLayout(1, 1, "falling").columns_and_families
+        array([[0, 0, 0, 1],
+               [0, 1, 2, 1]])
+        """
         lengths = [len(positions) for positions in self.positions]
         columns = np.concatenate([np.arange(length) for length in lengths])
         table = np.empty((2, self.row_length), dtype=int)
@@ -95,6 +114,12 @@ class EdgeLayout:
         -------
         tuple of ndarray
             The horizontal, vertical and diagonal edges.
+
+        Examples
+        --------
+        >>> layout = EdgeLayout(2, 3, "falling")
+        >>> [part.shape for part in layout.split(np.arange(3 * layout.row_length + 2.0), 0, 3)]
+        [(4, 2), (3, 3), (3, 2)]
         """
         last = self.ny if last is None else last
         count = last - first
@@ -121,6 +146,13 @@ class EdgeLayout:
         Returns
         -------
         ndarray, shape (number of facets,)
+
+        Examples
+        --------
+        >>> layout = EdgeLayout(2, 3, "falling")
+        >>> u = np.arange(3 * layout.row_length + 2.0)
+        >>> bool(np.all(layout.join(*layout.split(u, 0, 3)) == u))
+        True
         """
         count = self.ny * self.row_length + self.nx
         u = np.empty(count, dtype=horizontal.dtype)

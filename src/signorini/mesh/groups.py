@@ -27,6 +27,13 @@ class Groups:
             The group's name or number.
         members : ndarray of int
             Numbers of the cells.
+
+        Examples
+        --------
+        >>> groups = Groups()
+        >>> groups.add("name", "rim", np.array([4, 2]))
+        >>> groups.resolved()["rim"].tolist()
+        [2, 4]
         """
         if len(members):
             self._members.setdefault((text, origin), []).append(members)
@@ -43,13 +50,31 @@ class Groups:
             Dimension, number and name of all groups of the file.
         dimension : int
             Of the cells: 1 or 2.
+
+        Examples
+        --------
+        >>> groups = Groups()
+        >>> groups.add_physical(7, np.array([0, 1]), [(1, 7, "rim")], dimension=1)
+        >>> sorted(groups.resolved())
+        ['7', 'rim']
         """
         for title in (name for *key, name in titles if key == [dimension, number]):
             self.add("name", title, members)
         self.add("number", str(number), members)
 
     def resolved(self):
-        """Text to write in a scene -> its cells, increasing."""
+        """Text to write in a scene -> its cells, increasing.
+
+        Examples
+        --------
+        Where a name and a number are the same text, and not the same cells, both are told apart:
+
+        >>> groups = Groups()
+        >>> groups.add("name", "2", np.array([0]))
+        >>> groups.add("number", "2", np.array([1]))
+        >>> sorted(groups.resolved())
+        ['name=2', 'number=2']
+        """
         cells = {
             key: np.unique(np.concatenate(parts)).astype(np.int64)
             for key, parts in self._members.items()
@@ -173,6 +198,14 @@ def merged_cells(cells, entities, data):
     cells : ndarray of int, shape (k', width)
     numbers : ndarray of int, shape (k,)
         The new number of each cell.
+
+    Examples
+    --------
+    Without groups nothing is told twice:
+
+    >>> cells, numbers = merged_cells(np.array([[0, 1, 2], [1, 3, 2]]), 0, {})
+    >>> numbers.tolist()
+    [0, 1]
     """
     numbers = np.arange(len(cells))
     if len(cells) == 0 or cells.shape[1] != 3 or "gmsh:physical" not in data:

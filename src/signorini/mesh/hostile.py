@@ -27,6 +27,13 @@ def refuse_hostile(path, content):
     Raises
     ------
     MeshError
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> refuse_hostile(Path("mesh.vtu"), b"<!DOCTYPE mesh><VTKFile/>")
+    Traceback (most recent call last):
+    signorini.exceptions.MeshError: declares a DOCTYPE or ENTITY, which no mesh needs; ...
     """
     suffix = path.suffix.lower()
     if suffix in _XML:

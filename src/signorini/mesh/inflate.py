@@ -13,6 +13,11 @@ def most(size):
     """Bytes that `size` bytes of a file may decompress to.
 
     Meshes of two million cells came to 13 times their size.
+
+    Examples
+    --------
+    >>> most(1000) // 2**20
+    64
     """
     return 2**26 + 50 * size
 

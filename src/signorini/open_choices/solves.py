@@ -21,6 +21,13 @@ def with_options(statement, diagonal, load):
     Returns
     -------
     ProblemStatement
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+    >>> with_options(statement, "rising", "exact").domain["diagonal"]
+    'rising'
     """
     domain = statement.domain | {"diagonal": diagonal}
     return replace(statement, domain=domain, load_quadrature=load)
@@ -41,6 +48,14 @@ def solutions(statement, pairs, level=None):
     -------
     dict
         (element, n) -> (mesh, u).
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+    >>> mesh, u = solutions(statement, [("P1", 4)])["P1", 4]
+    >>> u.shape == (mesh.number_of_vertices,)
+    True
     """
     level = level or statement.triangulations.level
     solved = {}

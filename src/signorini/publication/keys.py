@@ -82,6 +82,13 @@ def declared_keys(document, published=()):
     -------
     dict
         Key -> name of its table, one of `FILES`. Words that are a star stand for whole numbers.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> keys = declared_keys(load_scene("config/scenes/paper.yaml").document)
+    >>> keys["l2, CR, 64"], keys["rate, h1, P1, 64"]
+    ('errors', 'errors')
     """
     found = dict.fromkeys(_scene_keys(document), "scene")
     if document["truth"]["kind"] != "none":
@@ -102,13 +109,28 @@ def declared_keys(document, published=()):
 
 
 def is_sampled(document):
-    """Whether the reference can be sampled for a surface plot."""
+    """Whether the reference can be sampled for a surface plot.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> is_sampled(load_scene("config/scenes/paper.yaml").document)
+    True
+    """
     truth, domain = document["truth"], document["domain"]
     return (domain["kind"], truth["kind"], truth.get("element")) == ("rectangle", "reference", "P1")
 
 
 def has_effects(document):
-    """Whether other options can be tried: other diagonals, and errors against a reference."""
+    """Whether other options can be tried: other diagonals, and errors against a reference.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> names = ("paper", "punch")
+    >>> [has_effects(load_scene(f"config/scenes/{name}.yaml").document) for name in names]
+    [True, False]
+    """
     truth, domain = document["truth"], document["domain"]
     is_comparable = set(document["norms"]) <= {"l2", "h1_semi", "h1"}
     return is_comparable and (domain["kind"], truth["kind"]) == ("rectangle", "reference")
@@ -192,6 +214,11 @@ def table_of(key, declared):
     -------
     str or None
         None where there is no such number.
+
+    Examples
+    --------
+    >>> table_of("l2, CR, 64", {"l2, CR, 64": "errors"})
+    'errors'
     """
     return declared.get(key) or declared.get(_starred(key))
 

@@ -63,18 +63,36 @@ def all_macros(numbers):
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> all_macros({"l2, CR, 64": "0.5"}).count("set{")
+    1
     """
     lines = [rf"\signorini@set{{{_name('', key)}}}{{{value}}}" for key, value in shown(numbers)]
     return _HEAD + "".join(f"{line}\n" for line in lines) + _FOOT
 
 
 def shown(numbers):
-    """Pairs of a key and its number in LaTeX, as it is without options."""
+    """Pairs of a key and its number in LaTeX, as it is without options.
+
+    Examples
+    --------
+    >>> shown({"l2, CR, 64": "0.00012"})
+    [('l2, CR, 64', '0.000120')]
+    """
     return [(key, printed(key, text, Form())) for key, text in numbers.items()]
 
 
 def printed(key, text, form):
-    """A number in LaTeX; a published one as it was printed, where nothing is said of its form."""
+    """A number in LaTeX; a published one as it was printed, where nothing is said of its form.
+
+    Examples
+    --------
+    >>> from signorini.publication.notation import Form
+    >>> printed("l2, CR, 64", "0.00012", Form())
+    '0.000120'
+    """
     is_published = key.startswith(f"{PUBLISHED}, ")
     return text if is_published and form == Form() else in_latex(text, form)
 

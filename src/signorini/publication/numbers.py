@@ -80,6 +80,14 @@ def error_numbers(rows, norms):
     -------
     dict
         Key -> value as it stands in the row; a rate is log(e'/e) / log(h'/h), dimensionless.
+
+    Examples
+    --------
+    Halved h, a quarter of the error: a rate of two.
+
+    >>> rows = [{"element": "CR", "n": n, "h": 1 / n, "l2": n**-2.0} for n in (2, 4)]
+    >>> error_numbers(rows, ["l2"])["rate, l2, CR, 4"]
+    2.0
     """
     found = {}
     for element in dict.fromkeys(row["element"] for row in rows):

@@ -86,6 +86,14 @@ def read_published(path):
     ------
     SceneError
         Naming the file, the line, the value and the remedy.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> path = load_scene("config/scenes/paper.yaml").document["publication"]["published"]
+    >>> number = next(iter(read_published(path).values()))
+    >>> number.quantity, number.element, number.value
+    ('l2', 'P1', '0.10075495')
     """
     reader = csv.reader(io.StringIO(_text(path)))
     header = next(reader, [])

@@ -133,7 +133,15 @@ class Scene:
 
     @property
     def statement(self):
-        """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict."""
+        """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> statement = load_scene("config/scenes/paper.yaml").statement
+        >>> statement["load_quadrature"], statement["coarsest"]
+        ('centroid', 2)
+        """
         exact = ["truth"] if self.truth["kind"] == "exact" else []
         load = ["data", "load_quadrature", "load_precision"]
         parts = self.section("domain", "boundary", "constraint", *load, *exact)
@@ -141,13 +149,27 @@ class Scene:
 
     @property
     def warnings(self):
-        """What a user should know though the scene is valid: lines that name their field."""
+        """What a user should know though the scene is valid: lines that name their field.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/punch.yaml").warnings
+        []
+        """
         measured = {"errors", "rates", "table"} & set(self.document["outputs"])
         return [f"truth.n: {self.reference_note}"] if measured and self.reference_note else []
 
     @property
     def elements(self):
-        """Elements compared, a list of names."""
+        """Elements compared, a list of names.
+
+        Examples
+        --------
+        >>> from signorini.scene.read import load_scene
+        >>> load_scene("config/scenes/paper.yaml").elements
+        ['P1', 'CR']
+        """
         return self.document["elements"]
 
     @property

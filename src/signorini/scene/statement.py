@@ -35,7 +35,15 @@ class ProblemStatement:
 
     @cached_property
     def triangulations(self):
-        """The domain as `mesh.Rectangle` or `mesh.Refined`: the triangulation of every level."""
+        """The domain as `mesh.Rectangle` or `mesh.Refined`: the triangulation of every level.
+
+        Examples
+        --------
+        >>> from signorini import load_scene
+        >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+        >>> statement.triangulations.level(4).number_of_triangles
+        32
+        """
         from signorini.mesh.domain import make_domain
 
         return make_domain(self.domain, self.boundary, self.coarsest)
@@ -51,6 +59,14 @@ class ProblemStatement:
         Returns
         -------
         ProblemStatement
+
+        Examples
+        --------
+        >>> from signorini import load_scene
+        >>> statement = load_scene("config/scenes/paper.yaml").problem_statement
+        >>> domain = statement.triangulations
+        >>> statement.on(domain).triangulations is domain
+        True
         """
         shared = replace(self)
         shared.__dict__["triangulations"] = domain

@@ -29,6 +29,15 @@ def step_rows(scene):
         plain active set, None where it finds no answer within a minute; ``ours`` and ``route``, the
         steps of the route that the scene takes; and ``warm``, the same from the contact set of the
         next coarser level, None on the coarsest.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from dataclasses import replace
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> few = replace(scene, document=scene.document | {"levels": [8, 16]})
+    >>> [(row["element"], row["n"]) for row in step_rows(few)]
+    [('P1', 8), ('P1', 16), ('CR', 8), ('CR', 16)]
     """
     rows = []
     for element in scene.elements:
@@ -70,6 +79,16 @@ def guess_from(solution, problem):
     -------
     ndarray of bool, shape (nc,)
         What holds at the nearest contact dof of the solution; nowhere contact where it has none.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.solvers import solve
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> coarse, fine = (scene.problem("CR", n) for n in (16, 32))
+    >>> guess = guess_from(solve(coarse), fine)
+    >>> int(np.sum(guess != solve(fine).active)) <= 1
+    True
     """
     known = solution.problem.contact_points
     if not known.size:

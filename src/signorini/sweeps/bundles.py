@@ -63,6 +63,13 @@ def bundle(section, number, most=None):
     ------
     SceneError
         If there is no such bundle.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> section = load_scene("config/scenes/punch-widths.yaml").document["sweep"]
+    >>> len(bundle(section, 1, most=2))
+    13
     """
     made = bundles(section, most)
     if not 1 <= number <= len(made):

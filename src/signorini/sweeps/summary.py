@@ -80,6 +80,14 @@ def as_markdown(frame):
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> print(as_markdown(pd.DataFrame({"n": [8], "l2": [0.123456789]})), end="")
+    | n | l2 |
+    | :--- | :--- |
+    | 8 | 0.12346 |
     """
     lines = ["| " + " | ".join(frame.columns) + " |", "|" + " :--- |" * len(frame.columns)]
     for row in frame.itertuples(index=False):

@@ -50,6 +50,12 @@ def failures(records):
     Returns
     -------
     list of str
+
+    Examples
+    --------
+    >>> record = {"point": "f=1", "values": {"data.f": 1}, "failed": "unbounded"}
+    >>> failures([record, record | {"failed": None}])
+    ['point f=1 (data.f = 1): unbounded']
     """
     lines = []
     for record in records:

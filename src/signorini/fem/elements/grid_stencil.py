@@ -31,7 +31,20 @@ class GridStencil(ABC):
 
     @abstractmethod
     def diagonal(self, grid):
-        """Diagonal of A, shape (ndof,), dimensionless."""
+        """Diagonal of A, shape (ndof,), dimensionless.
+
+        Examples
+        --------
+        4 inside, 2 on a side and 1 at a corner, since each triangle adds its share:
+
+        >>> from signorini.fem.elements import find_element
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> find_element("P1").stencil.diagonal(grid).reshape(3, 3)
+        array([[1., 2., 1.],
+               [2., 4., 2.],
+               [1., 2., 1.]])
+        """
 
     @abstractmethod
     def contact_fluxes(self, grid, u, contact):

@@ -41,6 +41,11 @@ def slope(run):
     -------
     float
         Dimensionless; -0.5 is optimal for affine elements in the plane.
+
+    Examples
+    --------
+    >>> slope(pd.DataFrame({"dofs": [100, 400, 1600], "upper": [0.4, 0.2, 0.1]}))
+    -0.5
     """
     late = run.iloc[len(run) // 2 :] if len(run) > 3 else run.iloc[-2:]
     return float(np.polyfit(np.log(late["dofs"]), np.log(late["upper"]), 1)[0])
@@ -59,6 +64,14 @@ def needed(run, bound, column):
     -------
     float or None
         None where the run does not get there.
+
+    Examples
+    --------
+    Between a bound of .2 for 400 unknowns and one of .05 for 6,400:
+
+    >>> run = pd.DataFrame({"dofs": [400, 6400], "upper": [0.2, 0.05]})
+    >>> round(needed(run, 0.1, "dofs")), needed(run, 0.01, "dofs")
+    (1600, None)
     """
     upper, cost = run["upper"].to_numpy(), run[column].to_numpy()
     if upper.min() > bound:

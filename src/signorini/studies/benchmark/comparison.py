@@ -123,5 +123,11 @@ def rows_apart(rows, seconds):
 
 
 def time_limit(limit):
-    """Seconds that a level may take in all, from the limit of one solve."""
+    """Seconds that a level may take in all, from the limit of one solve.
+
+    Examples
+    --------
+    >>> time_limit(10.0) > 10.0
+    True
+    """
     return _PREPARATION + 4.0 * limit * REPEATS

@@ -30,6 +30,12 @@ def by_run(rows):
     Returns
     -------
     dict
+
+    Examples
+    --------
+    >>> rows = [{"scene": "l", "element": "CR", "meshes": "uniform", "n": n} for n in (4, 8)]
+    >>> [row["n"] for row in by_run(rows)["l"]["CR", "uniform"]]
+    [4, 8]
     """
     runs = {}
     for row in rows:

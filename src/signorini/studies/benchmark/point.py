@@ -149,6 +149,13 @@ def why_not(before, limits):
     -------
     str or None
         None if it is not left out.
+
+    Examples
+    --------
+    >>> limits = {"seconds": 10, "megabytes": 1000}
+    >>> before = {"status": "measured", "total_min": 4.0, "memory": 1e8}
+    >>> why_not(None, limits) is None, why_not(before, limits)
+    (True, 'about 20 s foreseen, the limit is 10 s')
     """
     if before is None:
         return None

@@ -66,6 +66,13 @@ def measured_levels(settings, scene):
     Returns
     -------
     list of int
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> scene = SimpleNamespace(name="punch", levels=[8])
+    >>> measured_levels({"scenes": {"punch": {"finest": 64}}}, scene)
+    [8, 16, 32, 64]
     """
     n, levels = scene.levels[0], []
     while n <= settings["scenes"][scene.name]["finest"]:
@@ -75,7 +82,17 @@ def measured_levels(settings, scene):
 
 
 def shown_levels(settings, scene):
-    """Those of `measured_levels` whose errors are shown: four times coarser than a reference."""
+    """Those of `measured_levels` whose errors are shown: four times coarser than a reference.
+
+    Examples
+    --------
+    Four times coarser than the reference, at least:
+
+    >>> from types import SimpleNamespace
+    >>> scene = SimpleNamespace(name="punch", levels=[8])
+    >>> shown_levels({"scenes": {"punch": {"finest": 64, "reference": 128}}}, scene)
+    [8, 16, 32]
+    """
     levels = measured_levels(settings, scene)
     reference = settings["scenes"][scene.name].get("reference", _COARSER * levels[-1])
     return [n for n in levels if n <= reference // _COARSER]
@@ -91,6 +108,12 @@ def own_references(scenes):
     Returns
     -------
     dict of str to int
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> own_references([load_scene(f"config/scenes/{name}.yaml") for name in ("paper", "punch")])
+    {'paper': 512}
     """
     return {scene.name: scene.truth["n"] for scene in scenes if scene.truth["kind"] == "reference"}
 

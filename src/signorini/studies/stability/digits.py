@@ -48,7 +48,15 @@ def table(statement, scene, solved):
 
 
 def by_route(method):
-    """Solve by a route; where it does not apply, by the default one."""
+    """Solve by a route; where it does not apply, by the default one.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> bool(abs(by_route("direct")(problem) - by_route("fourier")(problem)).max() < 1e-14)
+    True
+    """
 
     def solved(problem):
         tried = attempt(problem, method)
@@ -58,7 +66,16 @@ def by_route(method):
 
 
 def last_bit(rng):
-    """Solve with every datum moved by one unit in its last bit, up or down, or not at all."""
+    """Solve with every datum moved by one unit in its last bit, up or down, or not at all.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene, solve
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 8)
+    >>> moved = last_bit(np.random.default_rng(0))(problem)
+    >>> bool(abs(moved - solve(problem).u).max() < 1e-14)
+    True
+    """
 
     def moved(values):
         return np.nextafter(values, values + rng.integers(-1, 2, values.size) * np.abs(values))
@@ -82,6 +99,15 @@ def renumbered(statement, rng):
     -------
     callable
         From a `Problem` to u.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene, solve
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> problem = discretize(scene, "CR", 8)
+    >>> other = renumbered(scene.problem_statement, np.random.default_rng(0))(problem)
+    >>> bool(abs(other - solve(problem).u).max() < 1e-14)
+    True
     """
 
     def solved(problem):

@@ -82,6 +82,15 @@ def estimated(rows, which=""):
     Returns
     -------
     pandas.Series of bool
+
+    Examples
+    --------
+    An error of 1e-12 stated as 1e-11, and as 1e-14, a hundred times too small:
+
+    >>> import pandas as pd
+    >>> rows = {"error": 1e-12, "accuracy": [1e-11, 1e-14], "floor": 1e-16, "undecided": 0}
+    >>> estimated(pd.DataFrame(rows)).tolist()
+    [True, False]
     """
     accuracy, error, floor = (rows[f"{which}{name}"] for name in ("accuracy", "error", "floor"))
     close = (rows["undecided"] > 0) | (accuracy <= OVERESTIMATE * np.fmax(error, floor))

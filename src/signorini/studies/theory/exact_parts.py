@@ -31,6 +31,14 @@ def edge_integrals(function, ends, singular_points):
     Returns
     -------
     ndarray, shape (m,)
+
+    Examples
+    --------
+    The integral of x over the segment from (0, 0) to (2, 0):
+
+    >>> ends = np.array([[[0.0], [2.0]], [[0.0], [0.0]]])
+    >>> edge_integrals(lambda x, y, s, which: x, ends, ()).round(12)
+    array([2.])
     """
     s, weights = interval_rule(_DEGREE)
     rule = np.stack([1.0 - s, s]), weights
@@ -57,6 +65,17 @@ def interpolate(exact, mesh):
     -------
     ndarray, shape (number_of_facets,)
         Values of Pi u at the midpoints; unit of u.
+
+    Examples
+    --------
+    An affine function is its own interpolant, so that means are the values at midpoints:
+
+    >>> from signorini.exact import family
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+    >>> middles = grid.p[:, grid.facets].mean(axis=1)
+    >>> bool(np.allclose(interpolate(family("patch"), grid), 1.0 - middles[1]))
+    True
     """
     ends = np.asarray(mesh.p)[:, np.asarray(mesh.facets)]
     length = np.hypot(*(ends[:, 1] - ends[:, 0]))
@@ -100,6 +119,18 @@ def sobolev_norms(exact, mesh):
     Returns
     -------
     SobolevNorms
+
+    Examples
+    --------
+    Of u = 1 - y on the unit square:
+
+    >>> from signorini.exact import family
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> norms = sobolev_norms(family("patch"), grid)
+    >>> round(norms.l2**2, 9), round(norms.h1_semi, 9)
+    (0.333333333, 1.0)
     """
     squares = np.zeros(3)
     zero = Field(np.zeros((3, mesh.number_of_triangles)))
@@ -131,6 +162,17 @@ def second_derivatives(exact, x, y):
     Returns
     -------
     uxx, uxy, uyy : ndarray
+
+    Examples
+    --------
+    Of x**2 y + y**3 at (1, 2), from its gradient:
+
+    >>> from signorini.exact.solution import FormulaSolution
+    >>> from signorini.formula import Formula
+    >>> exact = FormulaSolution(Formula("x**2*y + y**3"))
+    >>> second = second_derivatives(exact, np.ones(1), np.full(1, 2.0))
+    >>> [round(float(part[0]), 6) for part in second]
+    [4.0, 2.0, 12.0]
     """
     step = np.ones(np.shape(x))
     for a, b in exact.singular_points:

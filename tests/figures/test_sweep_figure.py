@@ -31,6 +31,13 @@ def test_every_series_is_a_line_of_its_panel():
     assert len({str(line._dash_pattern) for line in figure.axes[0].lines[:2]}) == 2, dashes
 
 
+def test_a_marker_is_seen_around_that_of_the_other_element():
+    """The last points of both lie at the same place: the corners of a square within a ring."""
+    axes = draw_sweep(curves()).axes[0]
+    sizes = {line.get_marker(): line.get_markersize() for line in axes.lines}
+    assert sizes["s"] * 2**0.5 < sizes["o"]
+
+
 def test_many_variants_have_no_legend_to_drown_in():
     figure = draw_sweep(curves(variants=[f"f {k}" for k in range(9)]))
     assert figure.legends == []

@@ -9,6 +9,7 @@ from signorini.figures.style import ELEMENT_STYLES, STYLE, TEXT_WIDTH, add_axes,
 _MOST_NAMED = 8  # lines that a legend can tell apart
 _LEFT, _BOTTOM, _GAP, _HEIGHT = 0.62, 0.48, 0.75, 1.8  # inches
 _ABOVE = 0.2  # of the axes, for a power of ten, inches
+_SIZES = {"P1": 5.0, "CR": 2.8}  # of markers: a ring is seen around another at the same place
 _MOST_MARKED = 40  # points of a line that have markers
 _VARIANTS = ((), (1, 1), (5, 2), (3, 1, 1, 1))  # dashes, in turn
 
@@ -76,7 +77,7 @@ def _style(series, panel):
     if len(variants) > 1:
         style["linestyle"] = (0, _VARIANTS[variants.index(series["variant"]) % len(_VARIANTS)])
     every = -(-len(series["x"]) // _MOST_MARKED)
-    return style | {"markevery": every, "markersize": 3.5}
+    return style | {"markevery": every, "markersize": _SIZES.get(series["element"], 3.5)}
 
 
 def _name(series):

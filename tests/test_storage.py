@@ -1,6 +1,7 @@
 import contextlib
 import csv
 import io
+import zipfile
 
 import numpy as np
 import pytest
@@ -59,6 +60,21 @@ def test_arrays_come_back(stored):
 def test_bytes_depend_on_the_arrays_alone(stored, tmp_path):
     write_npz(tmp_path / "b.npz", "solution", **ARRAYS)
     assert stored.read_bytes() == (tmp_path / "b.npz").read_bytes()
+
+
+def test_no_entry_has_a_header_that_differs_between_versions_of_python(stored):
+    """Python 3.11.4 changed that of ZIP64; without ZIP64 a header has no extra field."""
+    content = stored.read_bytes()
+    with zipfile.ZipFile(stored) as archive:
+        starts = [entry.header_offset for entry in archive.infolist()]
+    extra = [content[start + 28 : start + 30] for start in starts]
+    assert extra == [bytes(2)] * (1 + len(ARRAYS))
+
+
+def test_an_archive_that_unpacks_to_more_than_it_is_is_refused_before_it_is_read(tmp_path):
+    np.savez_compressed(tmp_path / "a.npz", kind="solution", u=np.zeros(10**6))
+    with pytest.raises(StorageError, match=r"bytes that unpack to 8\d{6}"):
+        read_npz(tmp_path / "a.npz", "solution")
 
 
 @pytest.mark.parametrize("bit", range(8))

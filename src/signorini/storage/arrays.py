@@ -1,9 +1,12 @@
 """Arrays: .npz files, which carry their checksums inside."""
 
+import os
 import zipfile
 
 from signorini.exceptions import StorageError
 from signorini.storage.files import missing, replacing
+
+_PLAIN = 2**30  # bytes; up to this no entry is written as ZIP64, whose header differs by Python
 
 
 def write_npz(path, kind, **arrays):
@@ -37,8 +40,9 @@ def write_npz(path, kind, **arrays):
         archive.comment = " ".join(entries).encode()
         for name, value in entries.items():
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
-            with archive.open(entry, "w", force_zip64=True) as member:
-                np.lib.format.write_array(member, np.asanyarray(value), allow_pickle=False)
+            array = np.asanyarray(value)
+            with archive.open(entry, "w", force_zip64=array.nbytes > _PLAIN) as member:
+                np.lib.format.write_array(member, array, allow_pickle=False)
 
 
 def read_npz(path, kind):
@@ -70,6 +74,7 @@ def read_npz(path, kind):
     """
     try:
         with zipfile.ZipFile(path) as archive:
+            _refuse_inflated(archive, os.path.getsize(path))
             arrays = {
                 name.removesuffix(".npy"): _read_array(archive, name) for name in archive.namelist()
             }
@@ -84,6 +89,13 @@ def read_npz(path, kind):
     if str(arrays.pop("kind", "")) != kind:
         raise StorageError(f"{path}: does not hold a {kind}; delete it and rerun")
     return arrays
+
+
+def _refuse_inflated(archive, size):
+    """Refuse an archive that unpacks to more than it is; `write_npz` compresses nothing."""
+    held = sum(entry.file_size for entry in archive.infolist())
+    if held > size:
+        raise ValueError(f"{size} bytes that unpack to {held}")
 
 
 def _read_array(archive, name):

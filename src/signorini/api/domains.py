@@ -195,6 +195,13 @@ def as_mesh(mesh: Any) -> Mesh:
     ------
     MeshError
         Listing what does.
+
+    Examples
+    --------
+    Vertices and triangles are a mesh:
+
+    >>> as_mesh(([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]])).number_of_triangles
+    1
     """
     return mesh if isinstance(mesh, Mesh) else triangulation(mesh)
 

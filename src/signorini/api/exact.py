@@ -113,6 +113,11 @@ def read_exact_solution(value: Any) -> ExactSolution:
     ------
     SceneError, FormulaError
         As `exact_solution`.
+
+    Examples
+    --------
+    >>> float(read_exact_solution("x**2 - y**2").value(3.0, 2.0))
+    5.0
     """
     if isinstance(value, ExactSolution):
         return value

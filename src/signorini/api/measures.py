@@ -44,6 +44,17 @@ def measure_of(
     Returns
     -------
     callable
+
+    Examples
+    --------
+    Nothing is missing of an affine solution:
+
+    >>> import signorini
+    >>> sides = {"bottom": "1 - y", "right": "1 - y", "top": "1 - y", "left": "1 - y"}
+    >>> problem = signorini.problem(signorini.rectangle(4), "CR", f=0, dirichlet=sides)
+    >>> solution = signorini.solve(problem)
+    >>> measure_of("1 - y", solution, ["l2"])(solution)["l2"] < 1e-14
+    True
     """
     if isinstance(truth, Solution):
         return _reference_measure(truth, _checked(norms or DOMAIN, DOMAIN))

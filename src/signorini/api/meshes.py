@@ -66,12 +66,27 @@ class Mesh:
 
     @property
     def p(self) -> Floats:
-        """Vertices, shape (2, nv), unit of length."""
+        """Vertices, shape (2, nv), unit of length.
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(1).p
+        array([[0., 1., 0., 1.],
+               [0., 0., 1., 1.]])
+        """
         return self._triangulation.p
 
     @property
     def t(self) -> Integers:
-        """Vertices of each triangle, shape (3, nt)."""
+        """Vertices of each triangle, shape (3, nt).
+
+        Examples
+        --------
+        >>> import signorini
+        >>> signorini.rectangle(1).t.T.tolist()
+        [[0, 1, 2], [3, 2, 1]]
+        """
         return self._triangulation.t
 
     @property

@@ -26,6 +26,12 @@ def saved(figure: "Figure", path: str | Path | None) -> "Figure":
     ------
     SceneError
         If the path ends otherwise.
+
+    Examples
+    --------
+    >>> saved(None, "figure.gif")
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: path: 'figure.gif' is no figure; end it in .pdf or .png
     """
     if path is not None:
         from signorini.figures.style import FORMATS, save_figure

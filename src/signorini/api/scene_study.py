@@ -78,6 +78,14 @@ def scene_errors(
     Returns
     -------
     callable
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> scene = load_scene("config/scenes/patch.yaml")
+    >>> errors = scene_errors(scene, scene.problem_statement.triangulations, ["l2"])
+    >>> errors(solve_level(scene, "CR", 4))["l2"] < 1e-14
+    True
     """
     norms = norms or scene.document["norms"]
     if scene.truth["kind"] == "exact":

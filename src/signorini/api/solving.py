@@ -79,6 +79,16 @@ def certify_levels(scene: Scene, solutions: Iterable[Any]) -> list[Any]:
     ------
     SolverError
         If a solution is of status inaccurate.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from signorini import load_scene
+    >>> scene = load_scene("config/scenes/corner.yaml")
+    >>> few = replace(scene, document=scene.document | {"levels": [4, 8]})
+    >>> coarse, fine = certify_levels(few, [])
+    >>> bool(fine.numbers["upper"][0] < coarse.numbers["upper"][0])
+    True
     """
     from signorini.certificate.level import certified_level
     from signorini.fem.element_facts import ELEMENT_NAMES

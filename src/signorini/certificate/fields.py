@@ -184,7 +184,19 @@ class Field:
 
 
 def gradient_on(piece, potential):
-    """k times the gradient of a `Potential` on a piece, a `Field`."""
+    """k times the gradient of a `Potential` on a piece, a `Field`.
+
+    Examples
+    --------
+    The field of a potential without bubbles is that of its affine part:
+
+    >>> from signorini.certificate.pieces import Topology
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+    >>> piece, values = next(Topology(grid).pieces()), grid.corner_values(grid.p[0])
+    >>> float(gradient_on(piece, Potential(values, np.zeros(5))).squared(piece)[0])
+    0.5
+    """
     flow = flow_on(piece, potential.corners[:, piece.cells])
     if potential.bubbles is None:
         return Field(flow, flow)

@@ -22,7 +22,15 @@ class Step:
     seconds: float
 
     def upper(self, element):
-        """The bound of the error of an element."""
+        """The bound of the error of an element.
+
+        Examples
+        --------
+        >>> from types import SimpleNamespace
+        >>> level = SimpleNamespace(elements=["P1", "CR"], numbers={"upper": [0.5, 0.25]})
+        >>> Step(level, seconds=1.0).upper("CR")
+        0.25
+        """
         return float(self.level.numbers["upper"][self.level.elements.index(element)])
 
 

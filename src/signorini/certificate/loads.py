@@ -102,6 +102,12 @@ def check_square_integrable(mesh, f, loads):
     ------
     SceneError
         Naming the triangle.
+
+    Examples
+    --------
+    >>> from signorini.formula import Formula
+    >>> grid, f = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4), Formula("x")
+    >>> check_square_integrable(grid, f, triangle_loads(grid, f, "exact"))
     """
     if f.constant is not None:
         return

@@ -62,7 +62,15 @@ class Piece:
 
     @cached_property
     def sense(self):
-        """1 where corners run counterclockwise, else -1, shape (m,)."""
+        """1 where corners run counterclockwise, else -1, shape (m,).
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> [piece.sense.tolist() for piece in Topology(grid).pieces()]
+        [[1.0], [1.0]]
+        """
         return np.sign(self._doubled)
 
     @cached_property
@@ -151,7 +159,17 @@ class Topology:
         return float(np.sum(np.broadcast_to(self.mesh.area, self.count)))
 
     def pieces(self):
-        """Yield all triangles, a `Piece` at a time."""
+        """Yield all triangles, a `Piece` at a time.
+
+        Examples
+        --------
+        All triangles of a grid, in two pieces of congruent ones:
+
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> [piece.cells for piece in Topology(grid).pieces()]
+        [slice(0, 4, None), slice(4, 8, None)]
+        """
         if not isinstance(self.mesh, Grid):
             for cells in chunk_slices(self.count, _AT_ONCE):
                 yield self._piece(cells, *self._shapes(cells))
@@ -174,7 +192,16 @@ class Topology:
 
     @cached_property
     def boundary(self):
-        """Local facet and triangle of each boundary facet, shape (2, m)."""
+        """Local facet and triangle of each boundary facet, shape (2, m).
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+        >>> Topology(grid).boundary
+        array([[0, 0, 2, 2],
+               [0, 1, 0, 1]])
+        """
         mesh = self.mesh
         on_it = np.zeros(mesh.number_of_facets, dtype=bool)
         for label in LABELS:

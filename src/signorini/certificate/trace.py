@@ -50,7 +50,17 @@ class Trace:
 
     @property
     def middle(self):
-        """Their midpoints, shape (2, m)."""
+        """Their midpoints, shape (2, m).
+
+        Examples
+        --------
+        >>> from signorini.certificate.pieces import Topology
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> trace(Topology(grid), "contact").middle.ravel().tolist()
+        [0.5, 0.0]
+        """
         return 0.5 * (self.start + self.end)
 
     @property
@@ -162,6 +172,16 @@ def given_on(topology, trace, datum):
     -------
     list of (ndarray of bool or slice, datum)
         Which facets, and the datum there; facets in no part have none.
+
+    Examples
+    --------
+    >>> from signorini.certificate.pieces import Topology
+    >>> from signorini.formula import Formula
+    >>> from signorini.mesh.grid import Grid
+    >>> grid = Grid(1, 1, (0.0, 0.0), (1.0, 1.0), "falling", ("contact",) * 4)
+    >>> topology, zero = Topology(grid), Formula("0")
+    >>> given_on(topology, trace(topology, "contact"), zero) == [(slice(None), zero)]
+    True
     """
     if not isinstance(datum, ByPart):
         return [(slice(None), datum)]

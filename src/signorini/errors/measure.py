@@ -71,6 +71,17 @@ def reference_measure(mesh, truth, norms, quadrature="exact", weight=None):
         From a mesh that the reference's was refined from, a `StoredSolution` on it, the diffusion
         coefficient on it, and whether it is the reference itself, to a dict as in
         `against_reference`.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> domain, truth = scene.problem_statement.triangulations, solve_level(scene, "P1", 16)
+    >>> measure = reference_measure(domain.level(16), truth, ["l2"])
+    >>> coarse, fine = (measure(domain.level(n), solve_level(scene, "P1", n))["l2"] for n in (4, 8))
+    >>> fine < coarse
+    True
     """
     from signorini.errors.reference import ReferenceErrors
 

@@ -73,7 +73,15 @@ class Piece(NamedTuple):
     energy: tuple
 
     def squared(self, values):
-        """Integral of a square over the piece, as `graded.square` gives it."""
+        """Integral of a square over the piece, as `graded.square` gives it.
+
+        Examples
+        --------
+        >>> piece = Piece(0.0, 0.0, (), np.array([0.5, 0.5]), 1.0, (1.0, 1.0))
+        >>> mantissa, exponent = piece.squared(np.array([3.0, 5.0]))
+        >>> mantissa * 4.0**exponent
+        17.0
+        """
         return square(values.reshape(len(self.outer), -1), self.outer, self.inner)
 
     def squared_energy(self, values):

@@ -94,7 +94,15 @@ class Annulus(ExactSolution):
         return self._gradient(x, y, *self._factors(x, y))
 
     def value_and_gradient(self, x, y):
-        """u and its partial derivatives; as in `ExactSolution.value_and_gradient`."""
+        """u and its partial derivatives; as in `ExactSolution.value_and_gradient`.
+
+        Examples
+        --------
+        >>> ring = Annulus(half_angle=1.0, load_value=-1.0, press=1.0)
+        >>> u, *slopes = ring.value_and_gradient(0.3, 0.6)
+        >>> bool(u == ring.value(0.3, 0.6)), slopes == list(ring.gradient(0.3, 0.6))
+        (True, True)
+        """
         factors = self._factors(x, y)
         return self._value(x, y, *factors), *self._gradient(x, y, *factors)
 

@@ -57,12 +57,27 @@ class Diffused(ExactSolution):
 
     @property
     def knows_load(self):
-        """Whether that of u is known, and the coefficient can be differentiated."""
+        """Whether that of u is known, and the coefficient can be differentiated.
+
+        Examples
+        --------
+        >>> from signorini.exact.solution import FormulaSolution
+        >>> u = FormulaSolution(Formula("x"))
+        >>> Diffused(u, Formula("2")).knows_load, Diffused(u, Function(lambda x, y: x)).knows_load
+        (True, False)
+        """
         return self.u.knows_load and not isinstance(self.coefficient, Function)
 
     @property
     def constant_load(self):
-        """Zero where u has no load, else None: not known."""
+        """Zero where u has no load, else None: not known.
+
+        Examples
+        --------
+        >>> from signorini.exact.families import family
+        >>> Diffused(family("corner"), Formula("where(y < 0.5, 1, 9)")).constant_load
+        0.0
+        """
         return 0.0 if self.u.constant_load == 0.0 else None
 
     def value(self, x, y):

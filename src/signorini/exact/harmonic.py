@@ -158,7 +158,13 @@ class Corner(Harmonic):
 
     @property
     def critical_points(self):
-        """The point (x0, y0)."""
+        """The point (x0, y0).
+
+        Examples
+        --------
+        >>> Corner(amplitude=1.0, x0=0.5, y0=0.0).critical_points
+        ((0.5, 0.0),)
+        """
         return ((self.x0, self.y0),)
 
     def _factors(self, x, y):
@@ -214,7 +220,13 @@ class Punch(Harmonic):
 
     @property
     def critical_points(self):
-        """The points (x0 - a, y0) and (x0 + a, y0)."""
+        """The points (x0 - a, y0) and (x0 + a, y0).
+
+        Examples
+        --------
+        >>> Punch(half_width=0.25, x0=0.0, y0=0.0).critical_points
+        ((-0.25, 0.0), (0.25, 0.0))
+        """
         return (self.x0 - self.half_width, self.y0), (self.x0 + self.half_width, self.y0)
 
     def _value(self, t, _, m):

@@ -236,6 +236,15 @@ def critical_places(mesh, solution):
     -------
     ndarray, shape (3, k)
         Arc length, x and y; unit of length.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(32)
+    >>> critical_places(mesh, solve_level(scene, "CR", 32))[1].tolist()
+    [-0.625, 0.625]
     """
     line = walk_contact(mesh, find_element(solution.element), solution.contact, solution.active)
     arc = line.critical[~np.isnan(line.critical)]
@@ -256,6 +265,16 @@ def sampled_surface(grid, u, cells):
     -------
     dict
         ``x`` (mx,), ``y`` (my,), unit of length, and ``u`` (my, mx).
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> grid = Grid(4, 4, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> sampled_surface(grid, grid.p[0] * grid.p[1], cells=2)["u"]
+    array([[0.  , 0.  , 0.  ],
+           [0.  , 0.25, 0.5 ],
+           [0.  , 0.5 , 1.  ]])
     """
     stride_x, stride_y = (_stride(count, cells) for count in (grid.nx, grid.ny))
     values = u.reshape(grid.ny + 1, grid.nx + 1)

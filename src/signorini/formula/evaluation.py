@@ -63,6 +63,15 @@ def compile_code(graph, expressions):
     Returns
     -------
     Code
+
+    Examples
+    --------
+    >>> from signorini.formula.expressions import Graph
+    >>> graph = Graph()
+    >>> x = graph.variable("x")
+    >>> code = compile_code(graph, [x * x + x])
+    >>> len(code.instructions), evaluate(code, np.array([3.0]), np.zeros(1))[0].tolist()
+    (2, [12.0])
     """
     needed = _needed(expressions)
     ordered = [expression for expression in graph.expressions.values() if expression in needed]

@@ -60,11 +60,29 @@ class Judgement:
 
     @property
     def u(self):
-        """The solution, longdouble, shape (ndof,)."""
+        """The solution, longdouble, shape (ndof,).
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene, solve
+        >>> from signorini.judge import judge
+        >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "CR", 4)
+        >>> bool(np.abs(judge(problem).u - solve(problem).u).max() < 1e-14)
+        True
+        """
         return self.shift + self.displacement
 
     def mirrored(self):
-        """The judgement of the mirrored problem, see `fem.mirror`."""
+        """The judgement of the mirrored problem, see `fem.mirror`.
+
+        Examples
+        --------
+        >>> from signorini import discretize, load_scene
+        >>> from signorini.judge import judge
+        >>> truth = judge(discretize(load_scene("config/scenes/paper.yaml"), "P1", 4))
+        >>> float(np.abs(truth.mirrored().u + truth.u).max())
+        0.0
+        """
         return replace(
             self,
             shift=negated(self.shift),

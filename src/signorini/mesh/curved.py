@@ -42,6 +42,17 @@ def followed(p, t, curves, ends, first=0):
     MeshError
         Naming the part and the point, where a vertex is too far from its curve, or a triangle would
         lose its area.
+
+    Examples
+    --------
+    The end of two facets that refinement added is put onto the circle:
+
+    >>> from signorini.mesh.curves import Circle
+    >>> p = np.array([[1.0, 0.8, 0.9, 0.5], [0.0, 0.6, 0.3, 0.2]])
+    >>> ends, t = {part_key("rim"): np.array([[0, 2], [2, 1]])}, np.array([[0, 2], [2, 1], [3, 3]])
+    >>> moved = followed(p, t, {"rim": Circle((0.0, 0.0), 1.0)}, ends)
+    >>> np.hypot(*moved[:, :3]).round(12).tolist()
+    [1.0, 1.0, 1.0]
     """
     if not curves:
         return p

@@ -115,12 +115,24 @@ class Lattice:
 
     @cached_property
     def x(self):
-        """Abscissae of the vertex columns, shape (nx + 1,)."""
+        """Abscissae of the vertex columns, shape (nx + 1,).
+
+        Examples
+        --------
+        >>> Lattice(2, 1, (1.0, 0.0), (2.0, 1.0), "falling").x
+        array([1., 2., 3.])
+        """
         return self.origin[0] + self.size[0] * (np.arange(self.nx + 1) / self.nx)
 
     @cached_property
     def y(self):
-        """Ordinates of the vertex rows, shape (ny + 1,)."""
+        """Ordinates of the vertex rows, shape (ny + 1,).
+
+        Examples
+        --------
+        >>> Lattice(2, 2, (0.0, 1.0), (2.0, 1.0), "falling").y
+        array([1. , 1.5, 2. ])
+        """
         return self.origin[1] + self.size[1] * (np.arange(self.ny + 1) / self.ny)
 
     @property

@@ -22,6 +22,12 @@ def made_files(document):
     -------
     dict
         Name as the manuscript takes it -> file or folder in the scene's results.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> "macros.tex" in made_files(load_scene("config/scenes/paper.yaml").document)
+    True
     """
     names = names_of(document)
     found = {MACROS: MACROS}
@@ -101,6 +107,12 @@ def tables_of_use(use, declared):
     -------
     set of str
         Of `keys.FILES`; empty where there is no such number.
+
+    Examples
+    --------
+    >>> from signorini.publication.manuscript import Use
+    >>> sorted(tables_of_use(Use("", "l2, CR, 64"), {"l2, CR, 64": "errors"}))
+    ['errors']
     """
     if not use.is_open:
         return {table_of(use.key, declared)} - {None}

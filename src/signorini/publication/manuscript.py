@@ -91,7 +91,13 @@ class Taken:
 
     @property
     def candidates(self):
-        """The names that LaTeX tries, in their order."""
+        """The names that LaTeX tries, in their order.
+
+        Examples
+        --------
+        >>> Taken("", "usepackage", "amsmath").candidates
+        ['amsmath', 'amsmath.sty']
+        """
         endings = ("", *_ENDINGS.get(self.command, ()))
         return [f"{folder}{self.name}{end}" for folder in self.folders for end in endings]
 
@@ -115,7 +121,13 @@ class Taken:
 
     @property
     def is_own(self):
-        """Whether the distribution of TeX has hardly such a file."""
+        """Whether the distribution of TeX has hardly such a file.
+
+        Examples
+        --------
+        >>> Taken("", "input", "macros").is_own, Taken("", "usepackage", "amsmath").is_own
+        (True, False)
+        """
         return self.command in _OWN
 
 

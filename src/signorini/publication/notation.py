@@ -129,6 +129,11 @@ def in_digits(text, form):
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> in_digits("0.00012345", Form()), in_digits("64", Form())
+    ('0.000123', '64')
     """
     if form == Form() and _WHOLE.fullmatch(text):
         return text

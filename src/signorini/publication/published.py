@@ -46,12 +46,24 @@ class Published:
 
     @property
     def key(self):
-        """The key of the computed number."""
+        """The key of the computed number.
+
+        Examples
+        --------
+        >>> Published("l2", "CR", "64", "0.0001", "1").key
+        'l2, CR, 64'
+        """
         return key_of(*self.quantity.split(), *filter(None, (self.element, self.n)))
 
     @property
     def cell(self):
-        """The name in check.csv."""
+        """The name in check.csv.
+
+        Examples
+        --------
+        >>> Published("l2", "CR", "64", "0.0001", "1").cell
+        'l2 CR n=64'
+        """
         first, *rest = self.quantity.split()
         if first == SLOPE:
             return " ".join([*rest[:1], self.element, SLOPE, *rest[1:]])
@@ -60,12 +72,24 @@ class Published:
 
     @property
     def is_slope(self):
-        """Whether it is a slope."""
+        """Whether it is a slope.
+
+        Examples
+        --------
+        >>> Published("l2", "CR", "64", "0.0001", "1").is_slope
+        False
+        """
         return self.quantity.split()[0] == SLOPE
 
     @property
     def unit(self):
-        """One unit of the last printed digit."""
+        """One unit of the last printed digit.
+
+        Examples
+        --------
+        >>> Published("l2", "CR", "64", "0.0980", "1").unit
+        Decimal('0.0001')
+        """
         return Decimal(1).scaleb(Decimal(self.value).as_tuple().exponent)
 
 

@@ -25,6 +25,20 @@ def with_exact(rows, mesh, exact):
     list of dict
         The rows with ``exact``, u at their places; and, where no side stands for a curve,
         ``true_resultant``, the integral of k du/dnu over the contact part, the same in each row.
+
+    Examples
+    --------
+    u = 1 - y is 1 on the contact side, and presses by 1 in all:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> from signorini.fem.contact_line import contact_rows
+    >>> scene = load_scene("config/scenes/patch.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> rows = contact_rows(mesh, solve_level(scene, "CR", 4))
+    >>> row = with_exact(rows, mesh, scene.problem_statement.exact)[0]
+    >>> row["exact"], row["true_resultant"]
+    (1.0, 1.0)
     """
     values = exact.value(*_places(rows))
     found = [row | {"exact": float(value)} for row, value in zip(rows, values, strict=True)]

@@ -33,6 +33,15 @@ def field_of(mesh, solution, most_triangles=20000):
         (x, y) of the pieces of intervals on which contact goes by turns, see
         `contact_side.critical_runs`; ``binding`` (m, 2, 2), the same of the pieces of contact
         facets that bind, in the same order.
+
+    Examples
+    --------
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/paper.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> field_of(mesh, solve_level(scene, "CR", 4))["critical_points"].tolist()
+    [[0.5, 0.0]]
     """
     values = find_element(solution.element).vertex_values(mesh, solution.u)
     shown, values = _coarsened(mesh, values, most_triangles)
@@ -131,6 +140,14 @@ def edges_of(mesh, label):
     -------
     ndarray of int, shape (2, k)
         Vertices.
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> edges_of(Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels), "contact")
+    array([[0, 1],
+           [1, 2]])
     """
     paths = [path.vertices for path in boundary_paths(mesh, label)]
     facets = [[vertices[:-1], vertices[1:]] for vertices in paths]

@@ -28,6 +28,15 @@ def output_rows(problem, solution, quantities):
     list of dict
         For each quantity ``element``, ``n``, ``h``, ``name``, ``value`` and ``unit``; the value is
         None where there is no such critical point.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/punch.yaml")
+    >>> problem, solution = discretize(scene, "CR", 64), solve_level(scene, "CR", 64)
+    >>> output_rows(problem, solution, {"width": {"kind": "contact_length"}})[0]["value"]
+    1.21875
     """
     what = {"element": solution.element, "n": solution.n, "h": solution.h}
     rows = []

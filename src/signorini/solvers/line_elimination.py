@@ -88,7 +88,18 @@ class VertexLines(LineElimination):
         return self.grid.ny + 1, self.grid.nx + 1
 
     def condense(self, load):
-        """The load on the rows of vertices that are eliminated."""
+        """The load on the rows of vertices that are eliminated.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> from signorini.solvers.oriented_grid import orient
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> VertexLines(mesh, orient(mesh)).condense(np.arange(9.0))
+        array([[0., 1., 2.],
+               [3., 4., 5.]])
+        """
         rows = self.oriented.orient_rows(load.reshape(self._shape()))
         return np.array(rows[self.rows, self.columns], order="C")
 
@@ -106,6 +117,15 @@ class VertexLines(LineElimination):
         -------
         ndarray, shape (ndof,)
             Unit of u.
+
+        Examples
+        --------
+        >>> from signorini.mesh.grid import Grid
+        >>> from signorini.solvers.oriented_grid import orient
+        >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+        >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+        >>> VertexLines(mesh, orient(mesh)).back_substitute(np.ones((2, 3)), None)
+        array([1., 1., 1., 1., 1., 1., 0., 0., 0.])
         """
         u = np.zeros(self._shape())
         self.oriented.orient_rows(u)[self.rows, self.columns] = rows

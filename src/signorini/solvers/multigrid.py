@@ -157,6 +157,13 @@ class Obstacle:
     def constrained(self, active):
         """Which unknowns do not move, shape (n,): the fixed ones, and those in the contact set
         `active`.
+
+        Examples
+        --------
+        >>> contact, fixed = np.array([1, 2]), np.array([0])
+        >>> obstacle = Obstacle(np.zeros(4), contact, np.zeros(2), fixed, np.zeros(1))
+        >>> obstacle.constrained(np.array([False, True]))
+        array([ True, False,  True, False])
         """
         constrained = np.zeros(self.b.size, dtype=bool)
         constrained[self.fixed] = True

@@ -45,7 +45,18 @@ class OrientedGrid:
         return rows[::-1] if self.side == "top" else rows
 
     def restore_rows(self, rows):
-        """Undo `orient_rows`."""
+        """Undo `orient_rows`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from signorini.mesh.grid import Grid
+        >>> labels = ("neumann", "contact", "neumann", "dirichlet")
+        >>> oriented = orient(Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels))
+        >>> rows = np.arange(6).reshape(2, 3)
+        >>> bool(np.all(oriented.restore_rows(oriented.orient_rows(rows)) == rows))
+        True
+        """
         rows = rows[::-1] if self.side == "top" else rows
         return rows.T[:, ::-1] if self.side == "right" else rows.T if self.side == "left" else rows
 

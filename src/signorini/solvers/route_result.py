@@ -220,6 +220,17 @@ def assess(u, active, iterations, gap, force, errors, released=None):
     Returns
     -------
     RouteResult
+
+    Examples
+    --------
+    A force of 0.5 that is sure, and one of 1e-16 that may be round-off:
+
+    >>> u, gap, force = np.array([0.0, 0.0, 1.0]), np.zeros(2), np.array([0.5, 1e-16])
+    >>> bound = np.full(2, 1e-15)
+    >>> errors = ErrorEstimates(1e-15, 1e-15, bound, bound, bound, np.ones(2), force_scale=1.0)
+    >>> found = assess(u, np.array([True, True]), 1, gap, force, errors)
+    >>> found.undecided, found.accuracy < 1e-14
+    (array([False,  True]), True)
     """
     released = released or ReleaseEffect(0.0, 0.0, 0.0)
     undecided = np.where(

@@ -73,6 +73,13 @@ class SpectralContact:
     def diagonal(self):
         """The mean eigenvalue: the size of the diagonal, which varies little along the line; shape
         (n,).
+
+        Examples
+        --------
+        >>> from signorini.solvers.transforms import midpoint_cosines
+        >>> basis = midpoint_cosines(4)
+        >>> SpectralContact(basis, basis.eigenvalues).diagonal().round(12).tolist()
+        [1.5, 1.5, 1.5, 1.5]
         """
         return np.full(self.size, self.symbol.mean())
 

@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
 
 from signorini.provenance.build import timeless  # noqa: E402 (the path above must come first)
-from signorini.provenance.folder import RECORD, is_result, walk  # noqa: E402
+from signorini.provenance.folder import RECORD, is_kept, walk  # noqa: E402
 
 EXPECTED = "expected"
 LOCK = "requirements.txt"
@@ -70,12 +70,12 @@ def sources(prefix):
 
 
 def results(prefix):
-    """Path -> content and mode of the results, and of their record without its times."""
+    """Path -> content and mode of results and their digests, and of their record without times."""
     record = json.loads((ROOT / "results" / RECORD).read_text(encoding="utf-8"))
     kept = json.dumps(timeless(record), indent=1) + "\n"
     found = {f"{prefix}/{RECORD}": (kept.encode(), 0o644, None)}
     files, _ = walk(ROOT / "results")
-    for path in filter(is_result, files):
+    for path in filter(is_kept, files):
         found[f"{prefix}/{path}"] = (ROOT / "results" / path).read_bytes(), 0o644, None
     return found
 

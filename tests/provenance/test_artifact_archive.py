@@ -1,6 +1,7 @@
 """The archive of `make artifact`: its bytes depend on its entries and the time of its commit."""
 
 import importlib.util
+import json
 import tarfile
 from pathlib import Path
 
@@ -43,3 +44,16 @@ def test_entries_belong_to_nobody_and_have_the_time_of_the_commit(script, tmp_pa
         (10, 0, 0, "")
     }
     assert [oct(entry.mode) for entry in entries] == ["0o644", "0o777", "0o755"]
+
+
+def test_results_are_packed_with_the_digests_beside_them(script, tmp_path, monkeypatch):
+    """Without them `signorini verify` would refuse to read a scene of an unpacked archive."""
+    for name in ("a/errors.csv", "a/.errors.csv.sha256", "a/logs/errors.log"):
+        (tmp_path / "results" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "results" / name).write_text(name)
+    record = {"jobs": [], "products": {}, "machine": {}}
+    (tmp_path / "results/provenance.json").write_text(json.dumps(record))
+    monkeypatch.setattr(script, "ROOT", tmp_path)
+    packed = script.results("expected")
+    kept = ("a/.errors.csv.sha256", "a/errors.csv", "provenance.json")
+    assert sorted(packed) == [f"expected/{name}" for name in kept]

@@ -23,6 +23,21 @@ def test_a_build_of_the_paper_is_as_recorded_and_meets_every_number(built_paper)
         assert "28 of 28 published numbers" in "\n".join(lines)
 
 
+def test_a_project_is_verified_whole_by_its_own_published_numbers(built_paper, tmp_path):
+    whole = tmp_path / "whole"
+    shutil.copytree(built_paper.folder, whole, ignore=shutil.ignore_patterns(".snakemake"))
+    code, lines = verify(built_paper, str(whole))
+    assert code == 0, lines
+    assert f"28 of 28 published numbers of {whole}/config/published/table_5_1.csv met" in lines[0]
+    table = whole / "config/published/table_5_1.csv"
+    table.rename(tmp_path / "table.csv")
+    table.symlink_to(tmp_path / "table.csv")
+    _, lines = verify(built_paper, str(whole))
+    refused, not_checked = lines[:-2]
+    assert refused.startswith("refused: config/published/table_5_1.csv: ")
+    assert not_checked.startswith("not checked: results/paper: ")
+
+
 def test_a_published_number_that_is_not_met_is_named(built_paper, tmp_path):
     table = tmp_path / "published.csv"
     shutil.copy(built_paper / "config/published/table_5_1.csv", table)

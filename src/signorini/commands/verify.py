@@ -1,26 +1,35 @@
 """Fail if a published number is not met, and name each such number.
 
-Of a folder of results: fail as well if a file is missing, changed, or in no record. The folder may
-be anybody's; nothing in it is executed, and no link is followed.
+Of a folder of results: fail as well if a file is missing, changed, or in no record. Of a folder
+with sources beside its results, or an archive of one: fail as well if a source is not what the
+build read. They may be anybody's; nothing in them is executed, and no link is followed.
 
 example:
   signorini verify check.csv
   signorini verify results
   signorini verify theirs/paper --against results/provenance.json
+  signorini verify build/artifact/signorini-0.2.0.tar.gz
 """
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output
+from signorini.exceptions import StorageError
+from signorini.provenance.folder import RECORD
 from signorini.publication.compare import verdict
 from signorini.storage import read_csv, write_text
+
+_ARCHIVES = (".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tar.xz")
 
 
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument(
-        "check", metavar="CHECK", help="check.csv of `signorini compare`, or a folder of results"
+        "check",
+        metavar="CHECK",
+        help="check.csv of `signorini compare`; or a folder of results, a crate, an archive",
     )
     add_output(parser, "the verdict, one line", required=False)
     parser.add_argument(
@@ -34,16 +43,92 @@ def add_arguments(parser):
 def run(arguments):
     """Judge; numbers of a table that are off are an error that lists them, and what is wrong with a
     folder is told line by line.
+
+    Raises
+    ------
+    SignoriniError
+        If a number is not met, or there is nothing that could be judged.
     """
-    if Path(arguments.check).is_dir():
-        return _folder(Path(arguments.check), arguments.against, arguments.published)
-    line = verdict(read_csv(arguments.check), arguments.check)
+    path = Path(arguments.check)
+    if path.is_dir():
+        return _told(_judged(path, arguments.against, arguments.published))
+    if path.name.lower().endswith(_ARCHIVES):
+        return _told(_of_archive(path, arguments.against, arguments.published))
+    if path.suffix == ".zip":
+        raise StorageError(f"{path}: unpack it, and name its folder")
+    line = verdict(read_csv(path), path)
     if arguments.output:
         write_text(arguments.output, line + "\n")
     return Outcome(line)
 
 
-def _folder(folder, against, published):
+@dataclass(frozen=True)
+class Judgement:
+    """What was found, in words and for a program, of the sources of a commit."""
+
+    name: str
+    findings: list
+    told: list
+    source: dict
+
+    def renamed(self, old, new):
+        """The same, of a folder under another name."""
+        findings = [
+            replace(each, path=each.path.replace(old, new), told=each.told.replace(old, new))
+            for each in self.findings
+        ]
+        told = [line.replace(old, new) for line in self.told]
+        return replace(self, name=self.name.replace(old, new), findings=findings, told=told)
+
+
+def _told(judgement):
+    """The outcome: a line for each finding, and what was met."""
+    count = len(judgement.findings)
+    summary = f"{count} findings" if count else "as its record says"
+    lines = [*map(str, judgement.findings), *judgement.told]
+    lines += [f"commit {judgement.source.get('commit')}", f"{judgement.name}: {summary}"]
+    findings = [vars(finding) for finding in judgement.findings]
+    data = {"findings": findings, "told": judgement.told, "source": judgement.source}
+    return Outcome("\n".join(lines), data, failed=bool(count))
+
+
+def _of_archive(path, against, published):
+    from signorini.provenance.unpack import unpacked
+    from signorini.provenance.whole import check_sum, parts_of
+
+    found = check_sum(path)
+    with unpacked(path) as folder:
+        if not (parts_of(folder) or (folder / RECORD).is_file()):
+            raise StorageError(f"{path}: no results with a {RECORD}; name an archive of a build")
+        judgement = _judged(folder, against, published)
+    judgement = judgement.renamed(str(folder), str(path))
+    return replace(judgement, findings=[*found, *judgement.findings])
+
+
+def _judged(folder, against, published):
+    """A folder of results; or each of those in a folder, and what is beside them."""
+    from signorini.provenance.verify import read_record
+    from signorini.provenance.whole import check_inputs, parts_of
+
+    parts = parts_of(folder)
+    if not parts:
+        return _results(folder, against, published)
+    record = against or parts[0] / RECORD
+    found = check_inputs(folder, read_record(parts[0], record)[0])
+    judged = [_results(part, record, published, folder) for part in parts]
+    for part, each in zip(parts, judged, strict=True):
+        found += [replace(one, path=_below(part, one.path)) for one in each.findings]
+    told = [line for each in judged for line in each.told]
+    return Judgement(str(folder), found, told, judged[0].source)
+
+
+def _below(part, path):
+    """A path of a finding below the folder that has the part; scenes are named with the part."""
+    named = path.startswith(f"{part}/")
+    return path.removeprefix(f"{part.parent}/") if named else f"{part.name}/{path}"
+
+
+def _results(folder, against, published, root="."):
     from signorini.provenance.verify import (
         REFUSED,
         check_files,
@@ -57,10 +142,6 @@ def _folder(folder, against, published):
     told = []
     safe = all(finding.kind != REFUSED for finding in found)
     for scene in scenes_with_check(folder) if safe else ():
-        findings, words = check_numbers(scene, published)
+        findings, words = check_numbers(scene, published, root)
         found, told = [*found, *findings], [*told, *filter(None, [words])]
-    source = record.get("source", {})
-    summary = f"{folder}: {len(found)} findings" if found else f"{folder}: as its record says"
-    lines = [*map(str, found), *told, f"commit {source.get('commit')}", summary]
-    data = {"findings": [vars(finding) for finding in found], "told": told, "source": source}
-    return Outcome("\n".join(lines), data, failed=bool(found))
+    return Judgement(str(folder), found, told, record.get("source", {}))

@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 from signorini.exceptions import StorageError
 from signorini.provenance.crate_run import add_run, compact, entity, package
 from signorini.provenance.folder import RECORD, check_inside, digest_of
+from signorini.provenance.whole import RESULTS
 from signorini.storage import digest_file
 from signorini.wording import cut
 
@@ -54,7 +55,7 @@ result which job made it, by which command, from which files, and when.
 
 - Sources: commit {commit}.
 - Results: `{results}`, of {jobs} jobs; state: {state}.
-- Whether the files are still those of the build: `signorini verify {results}`, in this folder.
+- Whether the files are still those of the build: `signorini verify {whole}`, in this folder.
 """
 
 
@@ -126,7 +127,8 @@ def _add_record(crate, project, record):
 def _add_readme(crate, record):
     commit = record["source"]["commit"] or "unknown"
     facts = {"results": record["results"], "jobs": len(record["jobs"]), "state": record["state"]}
-    text = _ABOUT.format(name=crate.name, commit=commit, **facts)
+    whole = "." if record["results"] == RESULTS else record["results"]
+    text = _ABOUT.format(name=crate.name, commit=commit, whole=whole, **facts)
     about = {"name": README, "encodingFormat": _FORMATS[".md"], "about": {"@id": "./"}}
     crate.add_file(StringIO(text), README, properties=about)
 

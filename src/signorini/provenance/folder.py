@@ -6,7 +6,7 @@ A symbolic link is named and not opened, and so is what is no file: a device or 
 import hashlib
 import os
 import re
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from signorini.exceptions import StorageError
 from signorini.storage import digest_file
@@ -91,6 +91,17 @@ def sealed_name(path):
     return str(PurePosixPath(path).with_name(found[1])) if found else None
 
 
+def is_kept(path):
+    """Whether a path below a folder of results is that of a result, or of the digest beside one.
+
+    Examples
+    --------
+    >>> [is_kept(path) for path in ("a/errors.csv", "a/.errors.csv.sha256", "a/logs/errors.log")]
+    [True, True, False]
+    """
+    return is_result(sealed_name(path) or path)
+
+
 def is_sealed(path, digest):
     """Whether the digest beside a file, where there is one, is the file's."""
     seal = digest_file(path)
@@ -154,3 +165,31 @@ def check_inside(path, source):
     parts = path.split("/")
     if not path or {"", ".", ".."} & set(parts) or "\\" in path or "\0" in path:
         raise StorageError(f"{source}: {cut(path)!r} leads out of its folder; do not trust it")
+
+
+def inside(folder, path, source):
+    """The place of a path below a folder, of which no part is a link.
+
+    Parameters
+    ----------
+    folder : path-like
+    path : str
+    source : path-like
+        The file that names the path.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    StorageError
+        If it leads out of the folder, or through a link.
+    """
+    check_inside(path, source)
+    place = Path(folder)
+    for part in path.split("/"):
+        place = place / part
+        if place.is_symlink():
+            raise StorageError(f"{place}: a link; links are not followed")
+    return place

@@ -16,6 +16,7 @@ from signorini.provenance.folder import (
     RECORD,
     check_inside,
     digest_of,
+    inside,
     is_result,
     is_sealed,
     read_small,
@@ -208,7 +209,7 @@ def scenes_with_check(folder):
     return [place for place in checked if (place / "scene.json").is_file()]
 
 
-def check_numbers(folder, published=None):
+def check_numbers(folder, published=None, root="."):
     """Compare the tables of a scene's folder with published numbers, and with its own comparison.
 
     Parameters
@@ -216,7 +217,9 @@ def check_numbers(folder, published=None):
     folder : Path
         With scene.json, check.csv and the tables.
     published : path-like, optional
-        A table of published numbers; by default the one that the scene names, of this folder.
+        A table of published numbers; by default the one that the scene names.
+    root : path-like, optional
+        Where that one is looked for; by default in this folder.
 
     Returns
     -------
@@ -225,7 +228,7 @@ def check_numbers(folder, published=None):
         What was found, in words.
     """
     try:
-        rows, table = _compared(folder, published)
+        rows, table = _compared(folder, published, root)
     except (SignoriniError, KeyError, TypeError, ValueError, AttributeError) as error:
         return [Finding("not checked", str(folder), str(error))], ""
     found = [
@@ -240,7 +243,7 @@ def check_numbers(folder, published=None):
     return found, f"{folder}: {met} of {len(rows)} published numbers of {table} met"
 
 
-def _compared(folder, published):
+def _compared(folder, published, root):
     from signorini.publication.compare import compare
     from signorini.publication.keys import declared_keys, table_of
     from signorini.publication.numbers import read_numbers
@@ -249,14 +252,19 @@ def _compared(folder, published):
 
     read_small(folder / "scene.json")
     scene = read_validated(folder / "scene.json")
-    table = published or scene.document["publication"]["published"]
-    if published is None:
-        check_inside(table, folder / "scene.json")
+    table = published or _own_table(scene.document, root, folder / "scene.json")
     numbers = list(read_published(table).values())
     declared = declared_keys(scene.document)
     tables = dict.fromkeys(filter(None, (table_of(number.key, declared) for number in numbers)))
     _refuse_large(folder)
     return compare(numbers, read_numbers(scene, folder, tables)), table
+
+
+def _own_table(document, root, source):
+    """The table of published numbers that a scene names; a link, or a large one, is refused."""
+    table = inside(root, document["publication"]["published"], source)
+    read_small(table)
+    return table
 
 
 def _refuse_large(folder):

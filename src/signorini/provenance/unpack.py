@@ -1,0 +1,62 @@
+"""Archives that anybody may have made: their plain files, in a temporary folder.
+
+Links, devices and pipes are left out, and so are wheels, which no record tells of; a name that
+leads out of the folder is an error.
+"""
+
+import tarfile
+import tempfile
+import zlib
+from contextlib import contextmanager
+from lzma import LZMAError
+from pathlib import Path
+
+from signorini.exceptions import StorageError
+from signorini.provenance.folder import MOST_FILES
+
+MOST_UNPACKED = 4 * 2**30  # bytes
+_BROKEN = (tarfile.TarError, OSError, EOFError, ValueError, zlib.error, LZMAError)
+
+
+@contextmanager
+def unpacked(path):
+    """The folder that an archive holds, until the block ends.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Yields
+    ------
+    Path
+        Its only folder, or the one that all of it was put in.
+
+    Raises
+    ------
+    StorageError
+        If it cannot be read, holds too much, or an entry leads out of it.
+    """
+    if not hasattr(tarfile, "data_filter"):
+        raise StorageError(f"{path}: this Python unpacks nothing safely; use 3.11.4 or later")
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            _unpack(path, folder)
+        except FileNotFoundError:
+            raise StorageError(f"{path}: there is no such file; correct the name") from None
+        except _BROKEN as error:
+            line = str(error).split("\n")[0]
+            raise StorageError(f"{path}: cannot unpack ({line}); get it again") from error
+        entries = list(Path(folder).iterdir())
+        yield entries[0] if len(entries) == 1 and entries[0].is_dir() else Path(folder)
+
+
+def _unpack(path, folder):
+    size = 0
+    with tarfile.open(path) as archive:
+        for count, entry in enumerate(archive):
+            size += entry.size
+            if size > MOST_UNPACKED or count > MOST_FILES:
+                most = f"{MOST_UNPACKED} bytes or {MOST_FILES} files"
+                raise StorageError(f"{path}: more than {most}; unpack it, and name its folder")
+            if entry.isdir() or (entry.isfile() and not entry.name.endswith(".whl")):
+                archive.extract(entry, folder, filter="data")

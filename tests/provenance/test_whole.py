@@ -95,6 +95,12 @@ def test_an_archive_is_verified_as_it_is(archived, verify, tmp_path, ending):
     assert verify(path) == (0, [])
 
 
+def test_an_archive_may_hold_its_files_at_its_top(archived, verify, tmp_path):
+    with tarfile.open(tmp_path / "one.tar", "w") as archive:
+        archive.add(archived, ".")
+    assert verify(tmp_path / "one.tar") == (0, [])
+
+
 def test_what_is_wrong_in_an_archive_is_told_with_its_name(archived, verify, tmp_path):
     (archived / "data.txt").write_bytes(b"2\n")
     path = packed(archived, tmp_path / "one.tar.gz")
@@ -113,8 +119,7 @@ def test_links_and_wheels_are_not_unpacked(archived, tmp_path):
     path = packed(archived, tmp_path / "one.tar.gz", link, hard, pipe)
     with unpack.unpacked(path) as folder:
         names = {each.name for each in folder.iterdir()}
-        assert names == {"data.txt", "src", "expected", "wheels"}
-        assert list((folder / "wheels").iterdir()) == []
+        assert names == {"data.txt", "src", "expected"}
     assert not folder.exists()
 
 
@@ -126,12 +131,12 @@ def test_a_link_in_place_of_a_result_is_a_result_less(archived, verify, tmp_path
     assert kinds(verify(archived)[1]) == [("refused", "expected/a/table.csv")]
 
 
-@pytest.mark.parametrize("name", ["signorini-1/../../out", "../out"])
+@pytest.mark.parametrize("name", ["signorini-1/../../out", "../out", "/tmp/out", "a\\..\\out"])
 def test_an_entry_that_leads_out_of_the_archive_is_an_error(archived, verify, tmp_path, name):
     path = packed(archived, tmp_path / "one.tar.gz", entry(name, size=1))
     status, told = verify(path)
     assert status == 1
-    assert "cannot unpack" in told
+    assert "leads out of its folder" in told
     assert not [*tmp_path.rglob("out")]
 
 

@@ -4,6 +4,7 @@ Links, devices and pipes are left out, and so are wheels, which no record tells 
 leads out of the folder is an error.
 """
 
+import shutil
 import tarfile
 import tempfile
 import zlib
@@ -12,7 +13,7 @@ from lzma import LZMAError
 from pathlib import Path
 
 from signorini.exceptions import StorageError
-from signorini.provenance.folder import MOST_FILES
+from signorini.provenance.folder import MOST_FILES, check_inside
 
 MOST_UNPACKED = 4 * 2**30  # bytes
 _BROKEN = (tarfile.TarError, OSError, EOFError, ValueError, zlib.error, LZMAError)
@@ -36,8 +37,6 @@ def unpacked(path):
     StorageError
         If it cannot be read, holds too much, or an entry leads out of it.
     """
-    if not hasattr(tarfile, "data_filter"):
-        raise StorageError(f"{path}: this Python unpacks nothing safely; use 3.11.4 or later")
     with tempfile.TemporaryDirectory() as folder:
         try:
             _unpack(path, folder)
@@ -58,5 +57,16 @@ def _unpack(path, folder):
             if size > MOST_UNPACKED or count > MOST_FILES:
                 most = f"{MOST_UNPACKED} bytes or {MOST_FILES} files"
                 raise StorageError(f"{path}: more than {most}; unpack it, and name its folder")
-            if entry.isdir() or (entry.isfile() and not entry.name.endswith(".whl")):
-                archive.extract(entry, folder, filter="data")
+            if entry.isfile() and not entry.name.endswith(".whl"):
+                place = _place(folder, entry.name, path)
+                with archive.extractfile(entry) as content, open(place, "wb") as stream:
+                    shutil.copyfileobj(content, stream)
+
+
+def _place(folder, name, source):
+    """Where an entry goes. No link is ever made there, so that its name alone tells."""
+    name = name.removeprefix("./")
+    check_inside(name, source)
+    place = Path(folder, name)
+    place.parent.mkdir(parents=True, exist_ok=True)
+    return place

@@ -151,6 +151,27 @@ def test_from_snakemake_a_path_leads_to_every_job(entities):
     assert {"#run", "#snakemake", *jobs} == set(references(entities["./"]["mentions"]))
 
 
+def test_who_started_the_run_is_said_where_it_is_told(built):
+    project, record = built
+    told = {}
+    for agent in (None, "A. Hill", "A. Hill <https://orcid.org/0>"):
+        crate = build_crate(project.folder, record, ABOUT, agent)
+        run, engine, *jobs = crate.root_dataset["mentions"]
+        agents = {action.get("agent") for action in (run, engine, *jobs)}
+        told[agent] = [(each.id, each["name"]) for each in agents if each]
+    named = [[], [("#agent", "A. Hill")], [("https://orcid.org/0", "A. Hill")]]
+    assert list(told.values()) == named
+    with pytest.raises(StorageError, match="agent: '<x>' is no name"):
+        build_crate(project.folder, record, ABOUT, "<x>")
+
+
+def test_programs_have_the_address_of_the_citation(built):
+    project, record = built
+    crate = build_crate(project.folder, record, ABOUT | {"repository-code": "https://a.example"})
+    programs = [crate.mainEntity, *crate.mainEntity["hasPart"]]
+    assert [each["url"] for each in programs] == ["https://a.example"] * 3
+
+
 def test_a_run_that_failed_says_so(built):
     project, record = built
     crate = build_crate(project.folder, record | {"state": FAILED, "failed": ["draw"]}, ABOUT)

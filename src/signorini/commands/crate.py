@@ -19,6 +19,11 @@ def add_arguments(parser):
         "--citation", default="CITATION.cff", metavar="FILE", help="default: CITATION.cff"
     )
     parser.add_argument(
+        "--agent",
+        metavar="NAME",
+        help="who started the run, 'NAME <https://orcid.org/...>'; the record does not know",
+    )
+    parser.add_argument(
         "-o", "--output", metavar="FOLDER", required=True, help="where to write it; a new folder"
     )
 
@@ -44,7 +49,7 @@ def run(arguments):
 
     from signorini.provenance.crate import build_crate
 
-    build_crate(Path(), record, about).write(output)
+    build_crate(Path(), record, about, arguments.agent).write(output)
     counts = f"{len(record['inputs'])} inputs, {len(record['products'])} results"
     return Outcome(f"{output}: {counts}, {len(record['jobs'])} jobs")
 

@@ -4,11 +4,12 @@ All of it is taken from ``provenance.json``.
 """
 
 import os
+import re
 from io import StringIO
 from pathlib import Path, PurePosixPath
 
 from signorini.exceptions import StorageError
-from signorini.provenance.crate_run import add_run, compact, entity, package
+from signorini.provenance.crate_run import add_run, as_list, compact, entity, package
 from signorini.provenance.folder import RECORD, check_inside, digest_of
 from signorini.provenance.whole import RESULTS
 from signorini.storage import digest_file
@@ -26,6 +27,7 @@ PROFILES = {
 _TERMS = "https://w3id.org/ro/terms/workflow-run/context"
 _RO_CRATE = "1.1"
 _BIOSCHEMAS = "https://bioschemas.org/profiles/ComputationalWorkflow/1.0-RELEASE"
+_AGENT = re.compile(r"([^<>]*[^<>\s])(?:\s+<(https?://[^<>\s]+)>)?")
 _UNKNOWN = "application/octet-stream"
 _FORMATS = {
     "": "text/plain",
@@ -59,7 +61,7 @@ result which job made it, by which command, from which files, and when.
 """
 
 
-def build_crate(project, record, about):
+def build_crate(project, record, about, agent=None):
     """The crate of a build, not yet written.
 
     Parameters
@@ -71,6 +73,8 @@ def build_crate(project, record, about):
     about : dict
         ``title``, ``abstract``, ``license`` and ``authors`` as in ``CITATION.cff``; ``keywords``
         and ``repository-code`` where it has them.
+    agent : str, optional
+        Who started the run: a name, and an address in angle brackets if there is one.
 
     Returns
     -------
@@ -92,10 +96,32 @@ def build_crate(project, record, about):
     crate = ROCrate(version=_RO_CRATE)
     crate.metadata.extra_contexts.append(_TERMS)
     _describe(crate, record, about)
-    workflow = _workflow(crate, Path(project), record, about)
+    workflow = _workflow(crate, Path(project), record)
     files = _files(crate, Path(project), record, workflow)
-    add_run(crate, workflow, files, record)
+    actions = add_run(crate, workflow, files, record)
+    if agent:
+        _name_agent(crate, actions, agent)
+    if address := _address(about):
+        for part in [workflow, *as_list(workflow["hasPart"])]:
+            part["url"] = address
     return crate
+
+
+def _address(about):
+    return about.get("repository-code") or about.get("url")
+
+
+def _name_agent(crate, actions, told):
+    """Say of every action who started it."""
+    found = _AGENT.fullmatch(told)
+    if not found:
+        raise StorageError(f"agent: {cut(told)!r} is no name; write NAME or 'NAME <https://...>'")
+    name, address = found.groups()
+    agent = crate.get(address or "#agent") or entity(
+        crate, address or "#agent", "Person", name=name
+    )
+    for action in actions:
+        action["agent"] = agent
 
 
 def _files(crate, project, record, workflow):
@@ -139,7 +165,8 @@ def _facts(project, path, digest):
     found = digest_of(project / path)
     if found != digest:
         told = f"its SHA-256 is {found[:12]}..., not {cut(str(digest))[:12]}..."
-        raise StorageError(f"{path}: {told}; build again, or restore it")
+        remedy = "restore it, or build again; `signorini provenance` if no job reads it"
+        raise StorageError(f"{path}: {told}; {remedy}")
     return {
         "name": path,
         "sha256": digest,
@@ -181,7 +208,7 @@ def _profile(crate, address, name):
     return found or entity(crate, address, "CreativeWork", name=name, version=version)
 
 
-def _workflow(crate, project, record, about):
+def _workflow(crate, project, record):
     versions = record["machine"]["versions"]
     workflow = crate.add_workflow(
         project / WORKFLOW,
@@ -193,8 +220,6 @@ def _workflow(crate, project, record, about):
     workflow.properties()["@type"] = [*workflow.type, "HowTo"]
     workflow["conformsTo"] = {"@id": _BIOSCHEMAS}
     workflow["version"] = record["source"]["commit"] or "unknown"
-    if address := about.get("repository-code") or about.get("url"):
-        workflow["url"] = address
     workflow["softwareRequirements"] = [
         package(crate, name, version) for name, version in versions.items() if version
     ]

@@ -1,7 +1,7 @@
 """The run of a build in an RO-Crate: its rules as steps, its jobs as actions, and Snakemake's part.
 
 The words are those of the profile Provenance Run Crate: a tool is the source file of a command, a
-step is a rule that runs it, an action is a job. Who started the run is not known, and not said.
+step is a rule that runs it, an action is a job.
 """
 
 import re
@@ -29,6 +29,11 @@ def add_run(crate, workflow, files, record):
     record : dict
         ``provenance.json``.
 
+    Returns
+    -------
+    list of rocrate.model.entity.Entity
+        The run as a whole, Snakemake's part in it, and the jobs.
+
     Raises
     ------
     StorageError
@@ -48,9 +53,10 @@ def add_run(crate, workflow, files, record):
     run = _run(crate, workflow, files, record)
     engine = _engine(crate, run, controls, record)
     jobs = [action for each in actions.values() for action in each]
-    crate.root_dataset["mentions"] = [run, engine, *jobs]
+    crate.root_dataset["mentions"] = found = [run, engine, *jobs]
     distinct = {name: tool for used in tools.values() for name, tool in used.items()}
     workflow["hasPart"] = compact(list(distinct.values()))
+    return found
 
 
 def entity(crate, identifier, kind, **facts):
@@ -66,6 +72,11 @@ def entity(crate, identifier, kind, **facts):
 def compact(values):
     """A list, or its only value in its place, as RO-Crate 1.1 asks."""
     return values[0] if len(values) == 1 else values
+
+
+def as_list(value):
+    """What `compact` was given."""
+    return value if isinstance(value, list) else [value]
 
 
 def _tool(job, files, record):

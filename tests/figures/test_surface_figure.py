@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from drawn import legend, line, sloping_surface
+from drawn import legend, line, pixels, sloping_surface
 from signorini.figures.style import save_figure
 from signorini.figures.surface import draw_surface
 
@@ -34,12 +34,42 @@ def test_an_obstacle_other_than_zero_decides_what_binds():
     assert binding.sum() == np.count_nonzero(0.7 - np.linspace(0, 1, 65) <= 0.35)
 
 
+def test_an_obstacle_below_the_surface_is_within_the_box():
+    surface = sloping_surface()
+    surface["contact_obstacle"] = np.linspace(-0.2, 0, 65)
+    figure = draw_surface(surface)
+    _, corner, *_ = figure.axes[0].collections[1].get_paths()[0].vertices  # below its left end
+    assert corner[1] < line(figure, "obstacle").get_ydata()[0]
+
+
 @pytest.mark.parametrize("points", [[], [(0.3, 0)], [(0.3, 0), (0.7, 0)]])
 def test_any_number_of_critical_points(points):
     figure = draw_surface(sloping_surface(points))
     markers = [artist for artist in figure.axes[0].lines if artist.get_marker() == "o"]
     assert len(markers) == len(points)
     assert legend(figure).count("critical point") == bool(points)
+
+
+@pytest.mark.parametrize(
+    ("places", "told"), [([0.3], 1), ([0.3, 0.7], 2), ([0.3, 0.35], 0), ([0.1, 0.5, 0.9], 0)]
+)
+def test_values_of_critical_points_stand_where_they_have_room(places, told):
+    figure = draw_surface(sloping_surface([(x, 0) for x in places]))
+    values = [text for text in figure.axes[0].texts if text.get_text().startswith("$x = ")]
+    assert len(values) == told
+
+
+def test_the_name_of_u_is_left_of_its_values():
+    """Values of five letters and more, which reach further to the left."""
+    surface = sloping_surface(())
+    figure = draw_surface(
+        surface | {"u": surface["u"] / 100, "contact_u": surface["contact_u"] / 100}
+    )
+    pixels(figure)
+    boxes = {text.get_text(): text.get_window_extent() for text in figure.axes[0].texts}
+    name = boxes.pop("$u$")
+    assert any(len(text) > 6 for text in boxes)
+    assert not any(name.overlaps(box) for box in boxes.values())
 
 
 @pytest.mark.filterwarnings("error")

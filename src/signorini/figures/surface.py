@@ -23,10 +23,13 @@ from signorini.report.contact_side import contact_side
 ELEVATION, AZIMUTH = np.radians(27), np.radians(-60)
 HEIGHT = 0.62  # of the drawn box, whose base has sides of length 1
 MARGIN = 0.08  # between the surface and the floor, in heights of the surface
+DEEPEST = 0.5  # to which the box reaches for an obstacle below the surface, in the same
 
 # In sides of the base.
 TICK = 0.015  # length
 NAME = 0.16  # distance of an axis name
+LETTER, LETTERS = 0.025, 4  # for each letter of a value of u beyond so many, further away
+APART = 0.3  # between two critical points whose values have room
 TICK_LABEL = ((0.07, "center"), (0.035, "left"), (0.03, "right"))  # distance, alignment: x, y, u
 
 # The directions of the page in the space of the box: the projection is orthographic.
@@ -131,7 +134,9 @@ def draw_surface(surface):
 def _box_around(surface):
     x, y, u = surface["x"], surface["y"], surface["u"]
     height = np.ptp(u) or 1.0  # a solution may be flat
-    floor = u.min() - MARGIN * height
+    obstacle = np.min(surface.get("contact_obstacle", u.min()))
+    lowest = max(min(u.min(), obstacle), u.min() - DEEPEST * height)
+    floor = lowest - MARGIN * height
     return Box(np.array([x[0], y[0], floor]), np.array([x[-1], y[-1], u.min() + height]))
 
 
@@ -159,7 +164,9 @@ def _draw_axis(axes, box, k, name, place, outward):
     for t in ticks:
         x, y = box.image(*place(t), distance * outward)
         axes.text(x, y, f"${t:.4g}$", fontsize=8, ha=align, va="center")
-    x, y = box.image(*place((low + high) / 2), NAME * outward)
+    longest = max((len(f"{t:.4g}") for t in ticks), default=0) if k == 2 else 0
+    away = NAME + LETTER * max(longest - LETTERS, 0)
+    x, y = box.image(*place((low + high) / 2), away * outward)
     axes.text(x, y, name, ha="center", va="center")
 
 
@@ -189,10 +196,13 @@ def _draw_contact(axes, box, side, y):
 
 
 def _draw_critical_points(axes, box, points):
-    for k, (x, y, height) in enumerate(points):
-        place = box.image(x, y, height)
+    places = [box.image(*point) for point in points]
+    for k, place in enumerate(places):
         label = "_" if k else "critical point"  # one entry of the legend is enough
         axes.plot(*place, "o", zorder=5, label=label, **CRITICAL)
+    if not _have_room(places):
+        return
+    for (x, _, _), place in zip(points, places, strict=True):
         axes.annotate(
             f"$x = {x:.3f}$",
             place,
@@ -203,3 +213,8 @@ def _draw_critical_points(axes, box, points):
             zorder=4,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
         )
+
+
+def _have_room(places):
+    """Whether the values of critical points can stand below them: of one, or of two apart."""
+    return len(places) == 1 or (len(places) == 2 and np.linalg.norm(places[1] - places[0]) >= APART)

@@ -195,6 +195,16 @@ def test_a_file_that_was_changed_is_refused(built):
         build_crate(project.folder, record, ABOUT)
 
 
+def test_a_crate_is_written_whole_or_not_at_all(built, monkeypatch, capsys):
+    def fail(*paths):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("shutil.copy", fail)
+    assert main(["crate", "results", "-o", "out/crate"]) == 1
+    assert "cannot write (No space left on device)" in capsys.readouterr().err
+    assert list((built[0] / "out").iterdir()) == []
+
+
 def test_a_link_in_place_of_the_digest_beside_a_result_is_refused(built):
     project, record = built
     (project / "results/a/.table.csv.sha256").unlink()

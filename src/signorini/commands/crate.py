@@ -7,6 +7,7 @@ example:
 
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from signorini.commands.catalogue import Outcome
 from signorini.exceptions import StorageError
@@ -49,7 +50,7 @@ def run(arguments):
 
     from signorini.provenance.crate import build_crate
 
-    build_crate(Path(), record, about, arguments.agent).write(output)
+    _write(build_crate(Path(), record, about, arguments.agent), output)
     counts = f"{len(record['inputs'])} inputs, {len(record['products'])} results"
     return Outcome(f"{output}: {counts}, {len(record['jobs'])} jobs")
 
@@ -62,6 +63,17 @@ def _record(folder):
         whole = f"the folder of results is {record['results']}, below that of the project"
         raise StorageError(f"{folder}: {whole}; go there, and name it")
     return record
+
+
+def _write(crate, output):
+    """All of it, or nothing."""
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=output.parent) as folder:
+            crate.write(Path(folder, output.name))
+            Path(folder, output.name).rename(output)
+    except OSError as error:
+        raise StorageError(f"{output}: cannot write ({error.strerror}); free its place") from error
 
 
 def _about(path):

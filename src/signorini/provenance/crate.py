@@ -84,8 +84,8 @@ def build_crate(project, record, about, agent=None):
     Raises
     ------
     StorageError
-        If the record is not that of a run of Snakemake, or a file is not there, leads out of the
-        folder, or is not as the record says.
+        If the record is not that of a run of Snakemake, the agent has no name, or a file is not
+        there, leads out of the folder, or is not as the record says.
     """
     from rocrate.rocrate import ROCrate
 
@@ -93,33 +93,33 @@ def build_crate(project, record, about, agent=None):
         raise StorageError(
             f"{RECORD}: no {WORKFLOW} or no jobs; build with Snakemake, in its folder"
         )
+    named = _agent(agent) if agent else None
     crate = ROCrate(version=_RO_CRATE)
     crate.metadata.extra_contexts.append(_TERMS)
     _describe(crate, record, about)
     workflow = _workflow(crate, Path(project), record)
     files = _files(crate, Path(project), record, workflow)
     actions = add_run(crate, workflow, files, record)
-    if agent:
-        _name_agent(crate, actions, agent)
-    if address := _address(about):
-        for part in [workflow, *as_list(workflow["hasPart"])]:
-            part["url"] = address
+    if named:
+        _name_agent(crate, actions, *named)
+    if address := about.get("repository-code") or about.get("url"):
+        for program in [workflow, *as_list(workflow["hasPart"])]:
+            program["url"] = address
     return crate
 
 
-def _address(about):
-    return about.get("repository-code") or about.get("url")
-
-
-def _name_agent(crate, actions, told):
-    """Say of every action who started it."""
+def _agent(told):
+    """The name and the address, or None in its place, of who started the run."""
     found = _AGENT.fullmatch(told)
     if not found:
         raise StorageError(f"agent: {cut(told)!r} is no name; write NAME or 'NAME <https://...>'")
-    name, address = found.groups()
-    agent = crate.get(address or "#agent") or entity(
-        crate, address or "#agent", "Person", name=name
-    )
+    return found.groups()
+
+
+def _name_agent(crate, actions, name, address):
+    """Say of every action who started it; who is an author too is the same person."""
+    place = address or "#agent"
+    agent = crate.get(place) or entity(crate, place, "Person", name=name)
     for action in actions:
         action["agent"] = agent
 

@@ -39,24 +39,33 @@ def add_run(crate, workflow, files, record):
     StorageError
         If the command of a job is none of the program, or its file is no input.
     """
-    tools, actions = {}, {}
-    for job in sorted(record["jobs"], key=lambda job: job["started"]):
-        tool = _tool(job, files, record)
-        tools.setdefault(job["rule"], {})[tool.id] = tool
-        actions.setdefault(job["rule"], []).append(_job(crate, job, tool, files))
-    steps = [
-        _step(crate, rule, place, list(used.values()))
-        for place, (rule, used) in enumerate(tools.items(), 1)
-    ]
-    workflow["step"] = compact(steps)
-    controls = [_control(crate, step, actions[step["name"]]) for step in steps]
+    jobs = sorted(record["jobs"], key=lambda job: job["started"])
+    tools = [_tool(job, files, record) for job in jobs]
+    actions = [_job(crate, job, tool, files) for job, tool in zip(jobs, tools, strict=True)]
+    controls = _steps(crate, workflow, jobs, tools, actions)
+    workflow["hasPart"] = _distinct(tools)
     run = _run(crate, workflow, files, record)
-    engine = _engine(crate, run, controls, record)
-    jobs = [action for each in actions.values() for action in each]
-    crate.root_dataset["mentions"] = found = [run, engine, *jobs]
-    distinct = {name: tool for used in tools.values() for name, tool in used.items()}
-    workflow["hasPart"] = compact(list(distinct.values()))
+    found = [run, _engine(crate, run, controls, record), *actions]
+    crate.root_dataset["mentions"] = found
     return found
+
+
+def _steps(crate, workflow, jobs, tools, actions):
+    """Add a step for each rule, in the order of their first jobs, and what Snakemake did for it."""
+    of_rule = {}
+    for job, *both in zip(jobs, tools, actions, strict=True):
+        of_rule.setdefault(job["rule"], []).append(both)
+    steps, controls = [], []
+    for place, (rule, each) in enumerate(of_rule.items(), 1):
+        used, done = zip(*each, strict=True)
+        steps.append(_step(crate, rule, place, used))
+        controls.append(_control(crate, steps[-1], done))
+    workflow["step"] = compact(steps)
+    return controls
+
+
+def _distinct(entities):
+    return compact({each.id: each for each in entities}.values())
 
 
 def entity(crate, identifier, kind, **facts):
@@ -71,6 +80,7 @@ def entity(crate, identifier, kind, **facts):
 
 def compact(values):
     """A list, or its only value in its place, as RO-Crate 1.1 asks."""
+    values = list(values)
     return values[0] if len(values) == 1 else values
 
 
@@ -131,7 +141,7 @@ def _time(seconds):
 
 
 def _step(crate, rule, place, tools):
-    facts = {"name": rule, "position": str(place), "workExample": compact(tools)}
+    facts = {"name": rule, "position": str(place), "workExample": _distinct(tools)}
     return entity(crate, f"#step/{rule}", "HowToStep", **facts)
 
 

@@ -9,8 +9,8 @@ from signorini.errors.pieces import RADON
 from signorini.exceptions import SceneError
 from signorini.fem.load import triangle_integrals
 from signorini.fem.quadrature import triangle_rule
+from signorini.mesh.geometry import triangle_areas
 from signorini.mesh.grid import Grid
-from signorini.mesh.triangulation import triangle_areas
 
 _POINTS_AT_ONCE = 2**16
 

@@ -13,8 +13,8 @@ from signorini.fem.precision import DOUBLE
 from signorini.fem.quadrature import interval_rule, triangle_rule
 from signorini.mesh.boundary import part_key
 from signorini.mesh.boundary_trace import outward_normals
+from signorini.mesh.geometry import triangle_areas
 from signorini.mesh.grid import Grid
-from signorini.mesh.triangulation import triangle_areas
 
 _EDGE_DEGREE = 9
 _POINTS_AT_ONCE = 2**16  # where f is evaluated in one call; measured

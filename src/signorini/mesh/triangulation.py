@@ -12,15 +12,15 @@ import numpy as np
 from signorini.chunks import chunk_slices
 from signorini.exceptions import MeshError
 from signorini.mesh import refinement
+from signorini.mesh.affine import Affine
 from signorini.mesh.boundary import LABELS, PART
 from signorini.mesh.curved import followed
 from signorini.mesh.facets import pair_keys, unique_facets
-from signorini.mesh.geometry import cross, triangle_areas
 from signorini.mesh.grid import Triangles
 
 
 @dataclass(frozen=True, eq=False)
-class Triangulation:
+class Triangulation(Affine):
     """Triangles whose boundary facets each carry one label.
 
     Parameters
@@ -107,7 +107,14 @@ class Triangulation:
 
     @property
     def facets(self):
-        """End vertices of each facet, the smaller first, in lexicographic order, shape (2, nf)."""
+        """End vertices of each facet, the smaller first, in lexicographic order, shape (2, nf).
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends).facets.T.tolist()
+        [[0, 1], [0, 2], [1, 2]]
+        """
         return self._facets[0]
 
     @property
@@ -145,18 +152,9 @@ class Triangulation:
         numbers = np.flatnonzero(carries[self.t2f].any(axis=0))
         return Triangles(self.t[:, numbers], self.t2f[:, numbers])
 
-    def points(self, vertices):
-        """Coordinates of vertices given by their numbers, shape (2, len(vertices))."""
-        return self.p[:, vertices]
-
     def facet_ends(self, facets):
         """End vertices of facets given by their numbers, shape (2, len(facets))."""
         return self.facets[:, facets]
-
-    @property
-    def number_of_vertices(self):
-        """Number of vertices."""
-        return self.p.shape[1]
 
     @property
     def number_of_facets(self):
@@ -164,24 +162,6 @@ class Triangulation:
         if self.parent is not None:
             return 2 * self.parent.number_of_facets + 3 * self.parent.number_of_triangles
         return self.facets.shape[1]
-
-    @property
-    def number_of_triangles(self):
-        """Number of triangles."""
-        return self.t.shape[1]
-
-    @cached_property
-    def area(self):
-        """Area of each triangle, shape (nt,), unit of length squared."""
-        return self.areas(slice(None))
-
-    def areas(self, cells):
-        """Area of some triangles, shape (len(cells),), unit of length squared."""
-        return triangle_areas(self.corners(cells))
-
-    def corners(self, cells):
-        """Corners of some triangles, shape (2, 3, len(cells)), unit of length."""
-        return self.p.take(self.t[:, cells], axis=1)
 
     @cached_property
     def stretch(self):
@@ -218,7 +198,15 @@ class Triangulation:
         return np.sort(near[np.searchsorted(known, wanted)])
 
     def boundary_vertices(self, label):
-        """Vertices on the closed facets that carry `label`, increasing, each once."""
+        """Vertices on the closed facets that carry `label`, increasing, each once.
+
+        Examples
+        --------
+        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+        >>> mesh.boundary_vertices("contact"), mesh.boundary_vertices("neumann").size
+        (array([0, 1], dtype=int32), 0)
+        """
         return np.unique(self.ends[label]) if label in self.ends else np.zeros(0, dtype=np.int32)
 
     @cached_property
@@ -252,43 +240,6 @@ class Triangulation:
         return self is other or (
             np.array_equal(self.t, other.t) and np.array_equal(self.p, other.p)
         )
-
-    def corner_values(self, u):
-        """Values of a vector over the vertices at the corners of each triangle, shape (3, nt)."""
-        return u[self.t]
-
-    def edge_vectors(self, cells):
-        """The edges 01, 12 and 20 of some triangles, shape (3, 2, len(cells)), unit of length."""
-        corners = self.corners(cells)
-        return (corners[:, [1, 2, 0]] - corners).transpose(1, 0, 2)
-
-    def gradients(self, values):
-        """Gradients of a piecewise affine function given by its values at the corners.
-
-        Parameters
-        ----------
-        values : ndarray, shape (3, nt)
-
-        Returns
-        -------
-        ndarray, shape (2, nt)
-            Unit of the values per length.
-
-        Examples
-        --------
-        >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
-        >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
-        >>> x, y = mesh.p
-        >>> mesh.gradients(mesh.corner_values(3.0 * x - y))
-        array([[ 3.],
-               [-1.]])
-        """
-        a, b, c = (self.p[:, v] for v in self.t)
-        ab, ac = b - a, c - a
-        twice_area = cross(ab, ac)
-        d1 = (values[1] - values[0]) / twice_area
-        d2 = (values[2] - values[0]) / twice_area
-        return np.stack([d1 * ac[1] - d2 * ab[1], d2 * ab[0] - d1 * ac[0]])
 
     def refined(self):
         """Each triangle cut into four by the midpoints of its facets; the labels are inherited.

@@ -6,14 +6,14 @@ from itertools import pairwise
 
 from signorini.errors.norms import CONTACT
 from signorini.exceptions import SceneError
-from signorini.formula import Formula
-from signorini.mesh.boundary import LABELS, SIDES, by_formula, labels_of
+from signorini.mesh.boundary import SIDES, labels_of
 from signorini.mesh.cell_counts import count_cells
+from signorini.scene.boundary_check import check_boundary
 from signorini.scene.certified import check_certifiable, is_certified
 from signorini.scene.quantities import check_quantities
 from signorini.scene.shape_checks import check_shapes, refuse_shapes
 from signorini.scene.table import check_table
-from signorini.wording import nearest, shown
+from signorini.wording import shown
 
 _NESTED = ("falling", "rising")
 
@@ -29,10 +29,19 @@ def check_document(document):
     ------
     SceneError, FormulaError
         Naming the field, its value and the remedy.
+
+    Examples
+    --------
+    >>> from copy import deepcopy
+    >>> from signorini import load_scene
+    >>> document = deepcopy(load_scene("config/scenes/paper.yaml").document)
+    >>> check_document(document | {"levels": [4, 2]})
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: levels: [4, 2] is not increasing; list each level ...
     """
     _DOMAIN_CHECKS[document["domain"]["kind"]](document["domain"])
     check_shapes(document["domain"], _part_names(document["domain"]))
-    _check_boundary(document["boundary"], _part_names(document["domain"]))
+    check_boundary(document["boundary"], _part_names(document["domain"]))
     if isinstance(document["data"]["coefficient"], dict) and document["domain"]["kind"] != "mesh":
         raise SceneError(
             "data.coefficient: only a mesh file has subdomains; "
@@ -122,60 +131,6 @@ def _part_names(domain):
         sides = domain.get("sides") or [f"side-{k}" for k in range(len(domain["corners"]))]
         return (*dict.fromkeys(sides), *(f"hole-{k}" for k in range(len(domain["holes"]))))
     return None
-
-
-def _check_boundary(boundary, names):
-    if by_formula(boundary):
-        _check_boundary_formulas(boundary)
-    else:
-        _check_boundary_labels(boundary, names)
-
-
-def _check_boundary_labels(boundary, names):
-    """Part of the boundary -> its label."""
-    for name, label in boundary.items():
-        if names is not None and name not in names:
-            raise SceneError(
-                f"boundary.{name}: unknown key, the domain has no such part; {nearest(name, names)}"
-            )
-        if label not in LABELS:
-            raise SceneError(
-                f"boundary.{name}: {shown(label)} is not valid; {nearest(label, LABELS)}"
-            )
-    missing = [name for name in names or () if name not in boundary]
-    if missing:
-        raise SceneError(
-            f"boundary.{missing[0]}: missing; add it with one of the labels {', '.join(LABELS)}"
-        )
-
-
-def _check_boundary_formulas(boundary):
-    """Label -> the formula that says where it is."""
-    if any(name in LABELS and label in LABELS for name, label in boundary.items()):
-        _refuse_misspelt_label(boundary)
-    for label, text in boundary.items():
-        if label not in LABELS:
-            raise SceneError(
-                f"boundary.{label}: no label; either every key is one of {', '.join(LABELS)} "
-                "and has a formula, or every key names a part of the boundary"
-            )
-        if text != "rest":
-            Formula(text, f"boundary.{label}")
-    rest = [label for label, text in boundary.items() if text == "rest"]
-    if len(rest) > 1:
-        raise SceneError(
-            f"boundary: {' and '.join(rest)} are both rest; one label at most can take what is left"
-        )
-
-
-def _refuse_misspelt_label(boundary):
-    """Parts with the names of labels: one value is meant to be a label, but is none."""
-    name, label = next(item for item in boundary.items() if item[1] not in LABELS)
-    raise SceneError(
-        f"boundary.{name}: {shown(label)} is no label, but other values are; "
-        f"{nearest(label, LABELS)}; or, if no part of the boundary has a label for its name, "
-        "give every label a formula"
-    )
 
 
 def _check_contact(document):

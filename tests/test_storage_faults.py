@@ -192,3 +192,9 @@ def test_a_file_has_the_rights_that_the_user_gives_to_new_ones(tmp_path, mask):
     finally:
         os.umask(before)
     assert (tmp_path / "t.txt").stat().st_mode & 0o777 == 0o666 & ~mask
+
+
+def test_a_table_with_a_field_too_long_is_refused(tmp_path):
+    (tmp_path / "a.csv").write_text(f"a,b\n{'x' * 200_000},1\n", encoding="utf-8")
+    with pytest.raises(StorageError, match="not a readable table"):
+        read_table(tmp_path / "a.csv")

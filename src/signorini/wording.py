@@ -49,6 +49,26 @@ def cut(text, width=WIDTH):
     return text if len(text) <= width else f"{text[: width - 3]}..."
 
 
+def printable(text):
+    """A text of anybody's on one line, without what moves a terminal's cursor or colours it.
+
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    str
+        Characters that cannot be printed are told by their code.
+
+    Examples
+    --------
+    >>> print(printable("errors.csv\\nall is well"))
+    errors.csv\\x0aall is well
+    """
+    return "".join(each if each.isprintable() else f"\\x{ord(each):02x}" for each in text)
+
+
 def _beginning(value, deep=4):
     """What of a value can be shown: a few levels of lists and dicts, the first entries of each."""
     if isinstance(value, str):

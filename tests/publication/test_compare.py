@@ -139,3 +139,10 @@ def test_check_summary_counts():
 def test_check_summary_of_nothing_is_refused():
     with pytest.raises(ValueError, match="no published number"):
         check_summary([])
+
+
+@pytest.mark.parametrize("computed", ["nan", "-inf", "=1+1", "1,5"])
+def test_what_is_no_number_is_named(computed):
+    number = PUBLISHED[0]
+    with pytest.raises(SignoriniError, match=r"check: .* is no number; delete the table"):
+        compare([number], {number.key: computed})

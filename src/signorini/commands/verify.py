@@ -20,6 +20,7 @@ from signorini.exceptions import StorageError
 from signorini.provenance.folder import RECORD
 from signorini.publication.compare import verdict
 from signorini.storage import read_csv, write_text
+from signorini.wording import printable
 
 _ARCHIVES = (".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tar.xz")
 
@@ -85,8 +86,9 @@ def _told(judgement):
     """The outcome: a line for each finding, and what was met."""
     count = len(judgement.findings)
     summary = f"{count} findings" if count else "as its record says"
-    lines = [*map(str, judgement.findings), *judgement.told]
-    lines += [f"commit {judgement.source.get('commit')}", f"{judgement.name}: {summary}"]
+    commit = f"commit {judgement.source.get('commit')}"
+    lines = [*map(str, judgement.findings), *judgement.told, commit, f"{judgement.name}: {summary}"]
+    lines = map(printable, lines)  # names and words may be anybody's
     findings = [vars(finding) for finding in judgement.findings]
     data = {"findings": findings, "told": judgement.told, "source": judgement.source}
     return Outcome("\n".join(lines), data, failed=bool(count))

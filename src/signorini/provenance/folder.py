@@ -4,13 +4,14 @@ A symbolic link is named and not opened, and so is what is no file: a device or 
 """
 
 import hashlib
+import json
 import os
 import re
 from pathlib import Path, PurePosixPath
 
 from signorini.exceptions import StorageError
 from signorini.storage import digest_file
-from signorini.wording import cut
+from signorini.wording import cut, printable
 
 MOST_FILES = 200_000
 MOST_BYTES = 64 * 2**20  # of a file that is parsed
@@ -148,6 +149,44 @@ def _opened(path):
         raise StorageError(
             f"{path}: cannot read ({error.strerror}); links are not followed"
         ) from error
+
+
+def parse_json(content, source):
+    """The value of a JSON text that says each thing once.
+
+    Parameters
+    ----------
+    content : bytes
+    source : path-like
+        The file to name in errors.
+
+    Returns
+    -------
+    object
+
+    Raises
+    ------
+    StorageError
+        If it is not JSON, names a key twice, or has NaN or Infinity.
+    """
+    try:
+        return json.loads(content, object_pairs_hook=_once, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        told = cut(printable(str(error)), 100)
+        raise StorageError(f"{source}: not JSON ({told}); it says nothing of the results") from None
+
+
+def _once(pairs):
+    found = {}
+    for name, value in pairs:
+        if name in found:
+            raise ValueError(f"{cut(name)!r} is there twice")
+        found[name] = value
+    return found
+
+
+def _refuse_constant(name):
+    raise ValueError(f"{name} is no number of JSON")
 
 
 def check_inside(path, source):

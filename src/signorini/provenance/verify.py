@@ -4,7 +4,6 @@ The folder may be anybody's. Nothing in it is executed or unpickled, no link is 
 digests are taken anew.
 """
 
-import json
 import re
 from collections import Counter
 from dataclasses import dataclass
@@ -19,10 +18,12 @@ from signorini.provenance.folder import (
     inside,
     is_result,
     is_sealed,
+    parse_json,
     read_small,
     sealed_name,
     walk,
 )
+from signorini.wording import printable
 
 REFUSED = "refused"
 _SHA256 = re.compile(r"[0-9a-f]{64}")
@@ -48,7 +49,7 @@ class Finding:
     told: str = ""
 
     def __str__(self):
-        return f"{self.kind}: {self.path}" + (f": {self.told}" if self.told else "")
+        return printable(": ".join(filter(None, (self.kind, self.path, self.told))))
 
 
 def read_record(folder, named=None):
@@ -86,10 +87,7 @@ def read_record(folder, named=None):
 
 
 def _parsed(path):
-    try:
-        record = json.loads(read_small(path))
-    except (ValueError, RecursionError) as error:
-        raise StorageError(f"{path}: not JSON ({error}); it says nothing of the results") from None
+    record = parse_json(read_small(path), path)
     if not (isinstance(record, dict) and record.get("format") == FORMAT):
         raise StorageError(
             f"{path}: not a record of format {FORMAT}; `signorini provenance` makes one"
@@ -142,7 +140,7 @@ def check_files(folder, record, below=""):
     """
     start = f"{record['results']}/{below}"
     wanted = {
-        path.removeprefix(start): told["sha256"]
+        path.removeprefix(start): told
         for path, told in record["products"].items()
         if path.startswith(start)
     }
@@ -168,7 +166,11 @@ def _scenes_alone(there):
     return {f"{name}/scene.json" for name, count in files.items() if count == 1}
 
 
-def _held(folder, path, wanted):
+def _held(folder, path, told):
+    """What is wrong with a file; one of another size is not read, however large it is."""
+    size, wanted = (folder / path).lstat().st_size, told["sha256"]
+    if size != told.get("bytes", size):
+        return [Finding("changed", path, f"{size} bytes, not {told['bytes']}")]
     digest = digest_of(folder / path)
     if digest != wanted:
         return [Finding("changed", path, f"its SHA-256 is {digest[:12]}..., not {wanted[:12]}...")]
@@ -229,8 +231,11 @@ def check_numbers(folder, published=None, root="."):
     """
     try:
         rows, table = _compared(folder, published, root)
-    except (SignoriniError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except SignoriniError as error:
         return [Finding("not checked", str(folder), str(error))], ""
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        told = f"scene.json has not the form of a scene ({type(error).__name__}: {error})"
+        return [Finding("not checked", str(folder), told)], ""
     found = [
         Finding("not met", row["cell"], f"published {row['published']}, computed {row['computed']}")
         for row in rows

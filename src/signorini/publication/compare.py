@@ -1,9 +1,10 @@
 """Published numbers against computed ones."""
 
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 
 from signorini.exceptions import SignoriniError
+from signorini.wording import cut
 
 EXACT = Decimal("0.5")  # units of the last printed digit: up to here all printed digits agree
 
@@ -44,7 +45,7 @@ def _row(number, numbers):
             f"check: {number.cell} was not computed; "
             "restore levels, elements and norms of the scene"
         )
-    units = (Decimal(computed) - Decimal(number.value)) / number.unit
+    units = (_finite(computed, number.cell) - Decimal(number.value)) / number.unit
     return {
         "cell": number.cell,
         "published": number.value,
@@ -52,6 +53,19 @@ def _row(number, numbers):
         "units": f"{units:.3f}",
         "ok": int(abs(units) <= Decimal(number.tolerance)),
     }
+
+
+def _finite(text, cell):
+    """A computed number, which NaN or a word is not."""
+    try:
+        value = Decimal(text)
+    except InvalidOperation:
+        value = Decimal("nan")
+    if not value.is_finite():
+        raise SignoriniError(
+            f"check: {cell}: {cut(text)!r} is no number; delete the table that has it, and rerun"
+        )
+    return value
 
 
 def verdict(rows, source):

@@ -208,5 +208,15 @@ def write_json(path, value, compact=False):
 
 
 def read_json(path):
-    """Read what `write_json` wrote."""
-    return json.loads(read_sealed(path))
+    """Read what `write_json` wrote.
+
+    Raises
+    ------
+    StorageError
+        If it is missing, altered, or not JSON.
+    """
+    content = read_sealed(path)
+    try:
+        return json.loads(content)
+    except (ValueError, RecursionError) as error:
+        raise StorageError(f"{path}: not JSON ({error}); delete it and rerun") from None

@@ -101,7 +101,7 @@ def _parsed(path, content, numbers, every):
             _check_combinations(rows, every)
         for row in rows:
             row.update({key: float(row[key]) if row[key] else None for key in numbers})
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, csv.Error) as error:
         raise StorageError(
             f"{path}: not a readable table ({error}); mend it, or delete it and rerun"
         ) from error

@@ -1,4 +1,5 @@
-# `make` lists the targets. Each prepares a virtual environment in .venv by itself; nothing else is installed.
+# `make` lists the targets. Each prepares a virtual environment in .venv by itself; nothing else is installed. One that is
+# there already, of the same Python, is kept with what else is in it.
 
 PYTHON ?= python3
 CORES ?= 2
@@ -67,7 +68,7 @@ requirements:
 	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: $(PYTHON) is $$("$(PYTHON)" --version 2>&1), too old; Python 3.11 or later is needed: make PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@"$(PYTHON)" -c 'import venv, ensurepip' 2>/dev/null || { echo 'error: $(PYTHON) has no venv; on Debian: apt-get install python3-venv' >&2; exit 1; }
 	@echo 'Installing requirements.txt into .venv, once; this takes about a minute.'
-	@"$(PYTHON)" -m venv --clear .venv
+	@[ "$$(.venv/bin/python --version 2>&1)" = "$$("$(PYTHON)" --version 2>&1)" ] || "$(PYTHON)" -m venv --clear .venv
 	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 $(offline) --requirement requirements.txt
 	@touch .venv/ready
 

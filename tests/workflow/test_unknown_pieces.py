@@ -22,6 +22,16 @@ def runs(tmp_path_factory):
     return side_by_side(lambda target: project.run("--dry-run", "--nolock", target), UNKNOWN)
 
 
+def test_a_scene_without_a_reference_has_no_surface(tmp_path):
+    run = Project.fresh(tmp_path / "project").run(
+        "--dry-run", "--nolock", "results/punch/surface.png"
+    )
+    assert run.code != 0
+    (line,) = run.errors
+    assert line.startswith("error: results/punch/reference.npz: the scene has none")
+    assert "truth.kind is exact" in line
+
+
 @pytest.mark.parametrize("target", UNKNOWN)
 def test_unknown_piece(runs, target):
     run = runs[target]

@@ -207,6 +207,18 @@ def reference_file(wildcards):
     )
 
 
+@reported
+def referenced_scene(wildcards):
+    """The scene of a reference, which only some have."""
+    kind = scene(wildcards.scene).truth["kind"]
+    if kind != "reference":
+        raise SignoriniError(
+            f"results/{wildcards.scene}/reference.npz: the scene has none, its truth.kind is {kind};"
+            " surfaces and references are those of scenes with truth.kind reference"
+        )
+    return scene_file(wildcards)
+
+
 def truth_part(wildcards):
     """A parameter: what errors depend on besides their files, which is the statement of an exact scene."""
     asked = scene(wildcards.scene)

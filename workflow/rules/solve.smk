@@ -30,7 +30,7 @@ rule solve:
 rule reference:
     input:
         library("solve"),
-        scene=ancient(scene_file),
+        scene=ancient(referenced_scene),
         mesh=mesh_file,
     output:
         "results/{scene}/reference.npz",

@@ -244,7 +244,7 @@ def draw_stretched(rows):
     matplotlib.figure.Figure
     """
     figure = new_figure(0.95 * TEXT_WIDTH, 0.42 * TEXT_WIDTH)
-    axes = figure.add_axes((0.1, 0.15, 0.55, 0.81), xscale="log", yscale="log")
+    axes = figure.add_axes((0.1, 0.17, 0.55, 0.79), xscale="log", yscale="log")
     for element in dict.fromkeys(row["element"] for row in rows):
         own = [row for row in rows if row["element"] == element]
         _draw_patch_test(axes, [row for row in own if row["error"]], element)

@@ -50,7 +50,7 @@ def test_seconds_that_were_not_fitted_are_met_within_a_factor_of_two_in_sum():
 def test_the_constants_are_those_of_the_fit(tmp_path, monkeypatch):
     monkeypatch.setattr(fit_costs, "COSTS", tmp_path / "costs.json")
     kept = json.loads((ROOT / "src/signorini/scene/costs.json").read_text())
-    fit_costs.main()
+    fit_costs.fit_solves()
     again = json.loads((tmp_path / "costs.json").read_text())
     assert again.keys() == kept.keys()
     for key in kept:

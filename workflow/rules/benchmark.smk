@@ -140,6 +140,9 @@ use rule errors as benchmark_errors with:
         f"{BENCHMARK}/logs/errors_{{scene}}.log",
     benchmark:
         f"{BENCHMARK}/benchmarks/errors_{{scene}}.tsv"
+    resources:
+        mem_mb=asked_megabytes(cost_of_shown_errors),
+        runtime=asked_runtime(cost_of_shown_errors),
     params:
         content=content("errors"),
         asked=parts("norm_quadrature"),

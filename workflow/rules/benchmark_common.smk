@@ -92,6 +92,14 @@ def shown_solutions(folder):
     return found
 
 
+def cost_of_shown_errors(wildcards):
+    """Seconds and bytes; the benchmark has references of its own."""
+    asked = scene(wildcards.scene)
+    if asked.truth["kind"] == "reference":
+        return errors_cost(asked, benchmark_reference_level(wildcards))
+    return errors_cost(asked, max(shown_levels(measured(), asked)))
+
+
 def benchmark_truth(wildcards):
     needed = scene(wildcards.scene).truth["kind"] == "reference"
     return [f"{BENCHMARK}/references/{wildcards.scene}.npz"] * needed

@@ -15,6 +15,9 @@ rule certificate:
     benchmark:
         "results/{scene}/benchmarks/certificate/n{n}.tsv"
     priority: 7
+    resources:
+        mem_mb=asked_megabytes(cost_of_certificate),
+        runtime=asked_runtime(cost_of_certificate),
     params:
         content=content("certificate"),
         asked=parts("elements"),

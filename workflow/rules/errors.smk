@@ -20,6 +20,9 @@ rule errors:
     benchmark:
         "results/{scene}/benchmarks/errors.tsv"
     priority: 8
+    resources:
+        mem_mb=asked_megabytes(cost_of_errors),
+        runtime=asked_runtime(cost_of_errors),
     params:
         content=content("errors"),
         asked=parts("norms", "norm_quadrature"),

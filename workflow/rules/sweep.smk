@@ -11,6 +11,9 @@ rule sweep_points:
         "results/{scene}/sweep/bundle-{bundle}-of-{of}.json",
     log:
         "results/{scene}/logs/sweep/bundle-{bundle}-of-{of}.log",
+    resources:
+        mem_mb=asked_megabytes(cost_of_points),
+        runtime=asked_runtime(cost_of_points),
     params:
         content=content("sweep-points", scene_sources),
         code=content("sweep-points"),

@@ -64,12 +64,18 @@ def sweep_output(name):
     return [f"results/{name}/{file}" for file in files]
 
 
+@cache
 @reported
-def sweep_seconds(name):
-    """Of processor time, that the jobs of a scene's sweep take; only a sweep loads what tells it."""
+def forecast_of(name, count):
+    """What the jobs of a scene's sweep take, the bundles first; only a sweep loads what tells it."""
     from signorini.sweeps.forecast import sweep_jobs
 
-    return sum(job.seconds for job in sweep_jobs(scene(name), bundle_count(name)))
+    return sweep_jobs(scene(name), count)
+
+
+def sweep_seconds(name):
+    """Of processor time, in all."""
+    return sum(job.seconds for job in forecast_of(name, bundle_count(name)))
 
 
 def tell_sweeps(names):

@@ -51,8 +51,8 @@ def solve_cost(element, route, triangles, grid):
     kind = "grid" if grid or measured == "fourier" else "mesh"
     fits = _fits(element, measured, kind)
     dofs = _DOFS.get(element, max(_DOFS.values())) * triangles
-    seconds = max(_at(fit["seconds"], dofs) for fit in fits)
-    size = max(_at(fit["bytes"], dofs) for fit in fits)
+    seconds = max(cost_at(fit["seconds"], dofs) for fit in fits)
+    size = max(cost_at(fit["bytes"], dofs) for fit in fits)
     known = "multigrid" if route == "auto" else route
     least = ELEMENT_FACTS[element].bytes_by(known) * triangles
     return seconds, max(size, least)
@@ -84,9 +84,7 @@ def asked_memory(statement, element, n, route, attempt=1):
     [500, 1000]
     """
     _, size = _cost_of(statement, element, n, route)
-    least = _UNCOUNTED_MB if statement.domain.get("kind") == "mesh" else _LEAST_MB
-    megabytes = max(least, 100 * math.ceil(_MARGIN * size / 1e8))
-    return megabytes * 2 ** (attempt - 1)
+    return megabytes_for(size, statement.domain, attempt)
 
 
 def asked_minutes(statement, element, n, route, attempt=1):
@@ -109,6 +107,51 @@ def asked_minutes(statement, element, n, route, attempt=1):
     11
     """
     seconds, _ = _cost_of(statement, element, n, route)
+    return minutes_for(seconds, attempt)
+
+
+def megabytes_for(size, domain, attempt=1):
+    """Megabytes to ask for, where so many bytes are expected.
+
+    Parameters
+    ----------
+    size : float
+    domain : dict
+        Section of a scene: of a mesh file nobody has counted the triangles.
+    attempt : int
+        From 1.
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> megabytes_for(6e8, {"kind": "rectangle"}), megabytes_for(6e8, {"kind": "rectangle"}, 2)
+    (1200, 2400)
+    """
+    least = _UNCOUNTED_MB if domain.get("kind") == "mesh" else _LEAST_MB
+    return max(least, 100 * math.ceil(_MARGIN * size / 1e8)) * 2 ** (attempt - 1)
+
+
+def minutes_for(seconds, attempt=1):
+    """Minutes to ask for, where so many seconds are expected.
+
+    Parameters
+    ----------
+    seconds : float
+    attempt : int
+        From 1.
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> minutes_for(100)
+    14
+    """
     return (_LEAST_MINUTES + math.ceil(_MARGIN * seconds / 60)) * 2 ** (attempt - 1)
 
 
@@ -127,9 +170,26 @@ def _fits(element, route, kind):
     return alike or list(measured.values())
 
 
-def _at(fit, dofs):
+def cost_at(fit, count):
+    """A fitted curve at a number of unknowns or triangles.
+
+    Parameters
+    ----------
+    fit : (float, float, float)
+        Start, factor and power.
+    count : float
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> cost_at((1.0, 2.0, 0.5), 9)
+    7.0
+    """
     start, factor, power = fit
-    return start + factor * dofs**power
+    return start + factor * count**power
 
 
 @cache

@@ -11,6 +11,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from signorini.scene.costs import solve_cost
+from signorini.scene.job_costs import errors_cost
 from signorini.scene.memory_check import count_roughly, fourier_applies
 from signorini.scene.read import scene_of_point
 from signorini.scene.scene import Scene
@@ -61,10 +62,13 @@ class Job:
 
 @dataclass(frozen=True)
 class _Shape:
-    """What a point takes, alone: its scene, and seconds and bytes by element and level."""
+    """What a point takes, alone: its scene, seconds and bytes by element and level, and the bytes
+    of measuring its errors.
+    """
 
     scene: Scene
     costs: dict
+    measuring: float
 
 
 def scene_jobs(scene):
@@ -133,6 +137,7 @@ def points_job(scene, points, shapes=None):
     """
     shapes = {} if shapes is None else shapes
     solved, before, rows, found = [], None, 0, set()
+    peak = 0
     seconds = STARTS["sweep_points"] + len(points) * _POINT_SECONDS
     for point in points:
         shape = _shape_of(scene, point, shapes)
@@ -143,8 +148,9 @@ def points_job(scene, points, shapes=None):
         asked = len(shape.scene.elements) * len(shape.scene.levels)
         seconds += asked * _MEASURE_SECONDS.get(shape.scene.truth["kind"], 0)
         rows += asked
+        peak = max(peak, shape.measuring)
     seconds += math.fsum(cost for cost, _ in solved)
-    memory = _POINTS_MEMORY + max((size for _, size in solved), default=0)
+    memory = _POINTS_MEMORY + max([peak, *(size for _, size in solved)])
     disk = len(points) * _POINT_BYTES + rows * _ROW_BYTES
     return Job("sweep_points", len(solved), seconds, memory, disk)
 
@@ -280,8 +286,14 @@ def _shape_of(scene, point, shapes):
         own = scene_of_point(scene, point)
         asked = [(element, n) for element in own.elements for n in own.levels]
         costs = {pair: level_cost(own, *pair) for pair in asked + _reference_of(own)}
-        shapes[key] = _Shape(own, costs)
+        shapes[key] = _Shape(own, costs, _measuring(own))
     return shapes[key]
+
+
+def _measuring(scene):
+    """Bytes of measuring errors; certificates of points are no part of a sweep's forecast."""
+    known = scene.truth["kind"] in ("reference", "exact")
+    return errors_cost(scene)[1] if known else 0
 
 
 def _shapes(key):

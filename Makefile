@@ -67,6 +67,7 @@ requirements:
 	@command -v "$(PYTHON)" >/dev/null || { echo 'error: $(PYTHON) not found; install Python 3.11 or later, or name one: make PYTHON=/path/to/python3.11' >&2; exit 1; }
 	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: $(PYTHON) is $$("$(PYTHON)" --version 2>&1), too old; Python 3.11 or later is needed: make PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@"$(PYTHON)" -c 'import venv, ensurepip' 2>/dev/null || { echo 'error: $(PYTHON) has no venv; on Debian: apt-get install python3-venv' >&2; exit 1; }
+	@[ ! -d wheels ] || ls wheels | grep -q -e "-cp$$("$(PYTHON)" -c 'import sys; print("%d%d" % sys.version_info[:2])')-cp" || { echo "error: wheels/ is not of $$("$(PYTHON)" --version 2>&1); name the Python of its files: make PYTHON=/path/to/python, or delete wheels/ to install from the network" >&2; exit 1; }
 	@echo 'Installing requirements.txt into .venv, once; this takes about a minute.'
 	@[ "$$(.venv/bin/python --version 2>&1)" = "$$("$(PYTHON)" --version 2>&1)" ] || "$(PYTHON)" -m venv --clear .venv
 	@$(run) pip install --quiet --disable-pip-version-check --use-pep517 $(offline) --requirement requirements.txt

@@ -77,7 +77,9 @@ TRIED = {
     r"snakemake --rulegraph .*": lambda command: command.partition(" | dot")[0],
     r"snakemake (.*)": lambda command: f"{command} --dry-run",
     r"python examples/(.*)": lambda command: f"test -f {command.split()[1]}",  # run elsewhere
-    r"python (benchmarks|docs)/(.*)": lambda command: f"{command.partition('.py')[0]}.py --help",
+    r"python (benchmarks|docs|\.ci)/(.*)": lambda command: (
+        f"{command.partition('.py')[0]}.py --help"
+    ),
 }
 SLURM = find_spec("snakemake_executor_plugin_slurm")  # and test_slurm runs it
 GENERIC = find_spec("snakemake_executor_plugin_cluster_generic")  # and test_cluster runs it
@@ -129,6 +131,7 @@ FILES = [
     "examples",
     "README.md",
     "CITATION.cff",
+    ".ci",
 ]
 
 

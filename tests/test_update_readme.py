@@ -64,6 +64,19 @@ def test_a_measurement_is_written_and_a_check_lets_noise_pass_but_not_a_factor_o
     assert update.told(update.durations_block("no duration", check=True)) == [10, 240, 60]
 
 
+def test_durations_of_claims_are_those_measured(update):
+    lines = ["| a | `make paper` | x | as above |\n", "| b | `snakemake b` | x | about 5 s |\n"]
+    lines += ["| c | `signorini verify c` | x | - |\n", "| d | `make d` | x | - |\n", "about 5 s\n"]
+    text = "".join(lines)
+    assert update.timed_claims(text, check=False) == text
+    rows = "make paper,9\nsnakemake b --config quick=true,61\nsignorini verify c,1\n"
+    update.DURATIONS.write_text(f"command,seconds\n{rows}", encoding="utf-8")
+    assert update.timed_claims(text, check=True) == text
+    lines[1] = lines[1].replace("5 s", "60 s")
+    lines[2] = lines[2].replace("-", "about 5 s")
+    assert update.timed_claims(text, check=False) == "".join(lines)
+
+
 def test_pages_of_scenes_have_a_place_for_every_block(update):
     pages = update.scene_pages
     names = {

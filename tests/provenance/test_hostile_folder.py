@@ -1,7 +1,9 @@
 """A folder of somebody who means harm: each harm is told in one line, and costs nothing."""
 
+import gzip
 import hashlib
 import json
+import tarfile
 
 import pytest
 
@@ -10,6 +12,7 @@ from signorini.exceptions import StorageError
 from signorini.provenance import verify
 from signorini.provenance.build import describe_build
 from signorini.provenance.folder import RECORD, parse_json
+from signorini.provenance.unpack import unpacked
 from signorini.provenance.verify import Finding, check_files, check_numbers, read_record
 from signorini.storage import write_json, write_text
 
@@ -101,3 +104,15 @@ def test_the_digest_of_a_file_of_the_same_size_is_taken(folder):
     record, below = read_record(folder)
     (found,) = check_files(folder, record, below)
     assert hashlib.sha256(content[:-2] + b"9\n").hexdigest()[:12] in found.told
+
+
+@pytest.mark.parametrize("kind", [tarfile.XHDTYPE, tarfile.XGLTYPE, tarfile.GNUTYPE_LONGNAME])
+def test_an_archive_whose_header_would_fill_the_memory_is_refused(tmp_path, kind):
+    """Such a header is read whole; the file need not even have it."""
+    entry = tarfile.TarInfo("a")
+    entry.type, entry.size = kind, 2**40
+    content = entry.tobuf(format=tarfile.GNU_FORMAT) + bytes(1024)
+    (tmp_path / "a.tar.gz").write_bytes(gzip.compress(content))
+    told = f"a.tar.gz: an entry has a header of {2**40} bytes"
+    with pytest.raises(StorageError, match=told), unpacked(tmp_path / "a.tar.gz"):
+        pass

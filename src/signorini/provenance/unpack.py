@@ -17,6 +17,21 @@ from signorini.provenance.folder import MOST_FILES, check_inside
 
 MOST_UNPACKED = 4 * 2**30  # bytes
 _BROKEN = (tarfile.TarError, OSError, EOFError, ValueError, zlib.error, LZMAError)
+MOST_NAMED = 2**20  # bytes of the header that has an entry's long name, which is read whole
+_NAMING = (
+    *(tarfile.XHDTYPE, tarfile.XGLTYPE, tarfile.SOLARIS_XHDTYPE),
+    *(tarfile.GNUTYPE_LONGNAME, tarfile.GNUTYPE_LONGLINK),
+)
+
+
+class _Entry(tarfile.TarInfo):
+    """An entry whose header is no larger than a limit."""
+
+    def _proc_member(self, archive):  # which subclasses may override, tarfile says
+        if self.type in _NAMING and self.size > MOST_NAMED:
+            told = f"an entry has a header of {self.size} bytes"
+            raise StorageError(f"{archive.name}: {told}; do not trust it")
+        return super()._proc_member(archive)
 
 
 @contextmanager
@@ -51,7 +66,7 @@ def unpacked(path):
 
 def _unpack(path, folder):
     size = 0
-    with tarfile.open(path) as archive:
+    with tarfile.open(path, tarinfo=_Entry) as archive:
         for count, entry in enumerate(archive):
             size += entry.size
             if size > MOST_UNPACKED or count > MOST_FILES:

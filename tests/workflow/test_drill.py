@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from project import ROOT
-from test_accidents import accepted, cut
+from test_accidents import accepted, cut, stamp
 
 PAGE = ROOT / "docs/faults.md"
 
@@ -51,6 +51,18 @@ def test_after_a_full_disk_the_same_command_goes_on(small_disk, fresh, built_sma
     again = fresh.build()
     assert again.jobs.get("solve", 0) < 4  # what was done before stays
     assert fresh.results() == whole
+
+
+def test_a_job_that_reads_a_file_of_the_future_says_so_and_runs_after_a_touch(paper):
+    path = "config/published/table_5_1.csv"
+    paper.edit(path, ",1\n", ",1.0\n")
+    stamp(paper / path, "future")
+    run = paper.run()
+    assert run.code != 0
+    assert "older modification time" in run.text
+    (command,) = re.findall(r"`(find \. -newermt .*?)`", PAGE.read_text(encoding="utf-8"))
+    subprocess.run(command, shell=True, cwd=paper.folder, check=True)
+    assert paper.build().jobs["check"] == 1
 
 
 @pytest.fixture

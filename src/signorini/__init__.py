@@ -15,7 +15,7 @@ docs/python.md leads through it. Problems in files are scenes, see `load_scene`.
 
 import importlib
 
-__version__ = "0.2.0"
+__version__ = "1.0.0"
 
 # Public name -> its room; a room is entered when first asked for, so that importing signorini costs
 # nothing. Type checkers read `__init__.pyi`.

@@ -140,7 +140,7 @@ def test_a_group_lists_its_parts(capsys):
 
 
 def test_the_version(capsys):
-    assert call(capsys, "--version") == (0, "signorini 0.2.0\n", "")
+    assert call(capsys, "--version") == (0, "signorini 1.0.0\n", "")
 
 
 @pytest.mark.parametrize("words", [["--help"], ["sweep", "--help"], ["scenes"]])

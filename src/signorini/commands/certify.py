@@ -34,7 +34,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--bound", type=float, help="energy error at which to end; not given: after the first level"
     )
-    parser.add_argument("--to", dest="bound", type=float, help=SUPPRESS)  # its name in 0.2.0
+    parser.add_argument("--to", dest="bound", type=float, help=SUPPRESS)  # its first name
 
 
 def run(arguments):

@@ -8,7 +8,7 @@ example:
   signorini verify check.csv
   signorini verify results
   signorini verify theirs/paper --against results/provenance.json
-  signorini verify build/artifact/signorini-0.2.0.tar.gz
+  signorini verify build/artifact/signorini-1.0.0.tar.gz
 """
 
 from dataclasses import dataclass, replace

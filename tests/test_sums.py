@@ -27,6 +27,7 @@ KNOWN = {
     "errors/reference.py": 1,
     "report/document.py": 1,
     "solvers/contact.py": 1,
+    "storage/arrays.py": 1,
     "studies/benchmark/report.py": 2,
     "studies/sensitivity/chance.py": 1,
     "studies/sensitivity/sixth_choice.py": 2,

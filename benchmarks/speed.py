@@ -349,11 +349,12 @@ def main():
     print("| :--- | :--- | ---: | ---: | ---: | ---: |")
     for (run, element), rows in found.items():
         seconds = [row["seconds"] for row in rows]
-        ratio = median(found, "baseline", element) / statistics.median(seconds)
+        ratio = f"{median(found, 'baseline', element) / statistics.median(seconds):.1f}"
+        ratio = ratio if run != "errors" else ""  # no solve
         peak = max(row["megabytes"] for row in rows)
         spread = f"{statistics.median(seconds):.3f} ({min(seconds):.3f} to {max(seconds):.3f})"
         print(
-            f"| {run} | {element} | {spread} | {ratio:.1f} | {peak:.0f} | {rows[0]['value']:.10g} |"
+            f"| {run} | {element} | {spread} | {ratio} | {peak:.0f} | {rows[0]['value']:.10g} |"
         )
     print("\n| aim | measured | bound | met |\n| :--- | ---: | ---: | :--- |")
     for text, value, bound, more in targets(found):

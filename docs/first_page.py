@@ -23,11 +23,11 @@ PROMISES = """\
 - **Guaranteed errors.** `signorini.certify(solution)` gives proved bounds of the energy error,
   without an exact or a finer solution ([certificates](docs/certificate.md)). The error of the
   paper's CR solution on {finest} by {finest} squares lies between {lower} and {upper};
-  its table implies {printed}
+  its table, which measures against a reference solution, implies {printed}
   ([the table between bounds](docs/studies/guaranteed/guaranteed.md)).
 - **Milliseconds.** The paper's reference solution, {unknowns} unknowns, takes {milliseconds:.0f} ms
   on one thread, from the statement of the problem to the checked solution
-  ([speed](docs/speed.md)).
+  ([its row](docs/studies/benchmark/benchmark.csv), [speed](docs/speed.md)).
 """
 
 

@@ -9,7 +9,7 @@ $$
 -\Delta u &= f && \text{inside}, \\
 u &= 0 && \text{on the top}, \\
 \partial_\nu u &= 0 && \text{on the left and on the right}, \\
-u \ge 0, \quad \partial_\nu u \ge 0, \quad u\,\partial_\nu u &= 0 && \text{on the bottom}.
+u \ge 0, \quad \partial_\nu u \ge 0, \quad u\thinspace \partial_\nu u &= 0 && \text{on the bottom}.
 \end{aligned}
 $$
 

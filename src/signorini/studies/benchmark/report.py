@@ -1,6 +1,9 @@
 """The page of the benchmark: the numbers and rows that fill ``page.md.j2``."""
 
+from decimal import ROUND_CEILING
+
 from signorini.errors.norms import PAPER_NORMS
+from signorini.report.certificates import outward
 from signorini.report.curves import stacked_shares
 from signorini.report.document import render
 from signorini.solvers.proof import INACCURATE, SOLVED
@@ -36,7 +39,7 @@ def page(layout, points, rivals, summary, machine, settings):
     curves, titles = series(points), summary["titles"]
     shown = {
         "judged": {"tolerance": TOLERANCE, "solved": SOLVED, "inaccurate": INACCURATE},
-        "difference": max(row["difference"] for rows in curves.values() for row in rows),
+        "difference": outward(_difference(curves), ROUND_CEILING, digits=1),
         "methods": list(dict.fromkeys(method for _, _, method in in_full(curves))),
         "accuracy": _accuracy(curves, summary["accuracy"]),
         "guaranteed": _guaranteed(summary["guaranteed"]),
@@ -52,6 +55,11 @@ def page(layout, points, rivals, summary, machine, settings):
     shown["answer"] = _answer(shown["reach"], summary)
     shown["times"] = _times(summary["growth"])
     return render(PAGE, layout, **shown, machine=machine, settings=settings)
+
+
+def _difference(curves):
+    """The largest of u, relative to max |u|, by any route in full."""
+    return max(row["difference"] for rows in curves.values() for row in rows)
 
 
 def _reach(curves, reached):

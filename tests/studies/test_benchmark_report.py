@@ -92,8 +92,8 @@ def test_the_page_begins_with_its_answer(text):
     assert "P1 gets to 6 sooner than CR, CR to none" in words
     assert (
         "On the finest level of each series, multigrid in full takes 20 to 20 times as long as "
-        "multigrid that ends at a tenth of the discretisation error, the most for paper P1 at an H1 "
-        "error of 0.25; the latter does not pay for paper, where fourier in full is sooner."
+        "multigrid that ends at a tenth of the discretisation error, the most for paper P1 at an "
+        "H1 error of 0.25; the latter does not pay for paper, where fourier in full is sooner."
     ) in words
     assert "faster than other people's solvers in 1 of 2 comparisons, and slower in 1." in words
     assert "Each point is measured" in rest

@@ -353,9 +353,7 @@ def main():
         ratio = ratio if run != "errors" else ""  # no solve
         peak = max(row["megabytes"] for row in rows)
         spread = f"{statistics.median(seconds):.3f} ({min(seconds):.3f} to {max(seconds):.3f})"
-        print(
-            f"| {run} | {element} | {spread} | {ratio} | {peak:.0f} | {rows[0]['value']:.10g} |"
-        )
+        print(f"| {run} | {element} | {spread} | {ratio} | {peak:.0f} | {rows[0]['value']:.10g} |")
     print("\n| aim | measured | bound | met |\n| :--- | ---: | ---: | :--- |")
     for text, value, bound, more in targets(found):
         met = "yes" if (value >= bound if more else value <= bound) else "no"

@@ -21,7 +21,8 @@ OTHERS = {
     "snakemake": {"--config", "--cores", "--rerun-incomplete", "--unlock"},
     "its Slurm plugin": {"--slurm-no-account", "--slurm-status-command"},
     "mpiexec": {"--allow-run-as-root", "--oversubscribe"},
-    "benchmarks/speed.py": {"--sizes"},
+    "benchmarks/growth.py": {"--sizes"},
+    ".ci/try_artifact.py": {"--long"},
 }
 
 

@@ -115,6 +115,14 @@ def test_a_missing_file_is_told_as_such(tmp_path, read):
     assert str(caught.value).startswith(str(tmp_path / "a"))
 
 
+@pytest.mark.parametrize("read", [lambda path: read_npz(path, "solution"), read_csv, read_sealed])
+def test_what_is_no_damage_is_not_to_be_deleted(tmp_path, read):
+    (tmp_path / "a").write_text("mine")
+    for path, remedy in ((tmp_path, "name a file"), (tmp_path / "a/b", "correct the name")):
+        with pytest.raises(StorageError, match=rf": cannot read \(.*\); {remedy}$"):
+            read(path)
+
+
 @pytest.mark.parametrize(
     "content", [b"", b"text", b"\x80\x04K\x01."], ids=["empty", "text", "pickle"]
 )
@@ -178,8 +186,9 @@ def test_a_changed_character_is_refused(tmp_path, name):
     rewrite(path, content)
     read(path)
     digest_file(path).unlink()
-    with pytest.raises(StorageError, match=f"its digest is not that in .{name}.sha256"):
+    with pytest.raises(StorageError, match=f"there is no .{name}.sha256 beside it") as caught:
         read(path)
+    assert "delete" not in str(caught.value)  # it may be anybody's
 
 
 def test_the_digest_is_in_the_format_of_sha256sum(tmp_path):

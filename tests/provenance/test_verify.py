@@ -30,6 +30,17 @@ def test_what_was_just_built_is_as_recorded(folder, capsys):
     assert "as its record says" in capsys.readouterr().out
 
 
+def test_the_verdict_is_written_but_not_among_the_results(folder, tmp_path, capsys):
+    verdict = tmp_path / "verdict.txt"
+    assert main(["verify", str(folder), "-o", str(folder / "a/verdict.txt")]) == 1
+    assert "is among the results; name a file outside" in capsys.readouterr().err
+    assert main(["verify", str(folder), "-o", str(verdict)]) == 0
+    assert verdict.read_text() == capsys.readouterr().out
+    (folder / "a/table.csv").write_bytes(b"n\n2\n")
+    assert main(["verify", str(folder), "-o", str(verdict)]) == 1
+    assert "changed" in verdict.read_text()
+
+
 def test_one_digit_is_told(folder, capsys):
     (folder / "a/table.csv").write_bytes(b"n\n2\n")
     assert findings(folder) == {("changed", "a/table.csv")}

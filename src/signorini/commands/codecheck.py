@@ -39,6 +39,7 @@ def run(arguments):
     from signorini.storage.files import replacing
 
     folder, output = Path(arguments.folder), Path(arguments.output)
+    _check_checked(folder)
     rows = read_csv(folder / "check.csv")
     document = read_validated(folder / "scene.json").document
     try:
@@ -51,3 +52,14 @@ def run(arguments):
     with replacing(output, encoding="utf-8", newline="\n") as stream:
         stream.write(text)
     return Outcome(f"{output}: {len(rows)} published numbers, met")
+
+
+def _check_checked(folder):
+    """Refuse what is no folder, and one without compared numbers."""
+    if not folder.is_dir():
+        raise StorageError(f"{folder}: no folder; name that of a scene's results, results/NAME")
+    if not (folder / "check.csv").exists():
+        raise StorageError(
+            f"{folder}: there is no check.csv, which is made of a scene with "
+            "publication.published; see docs/own-paper.md"
+        )

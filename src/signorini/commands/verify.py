@@ -23,6 +23,8 @@ from signorini.storage import read_csv, write_text
 from signorini.wording import printable
 
 _ARCHIVES = (".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tar.xz")
+_COLUMNS = ("cell", "published", "computed", "units", "ok")  # of check.csv
+_NAMED = "name check.csv of `signorini compare`, or a folder of results"
 
 
 def add_arguments(parser):
@@ -32,7 +34,7 @@ def add_arguments(parser):
         metavar="CHECK",
         help="check.csv of `signorini compare`; or a folder of results, a crate, an archive",
     )
-    add_output(parser, "the verdict, one line", required=False)
+    add_output(parser, "the verdict", required=False)
     parser.add_argument(
         "--against", type=Path, metavar="FILE", help="a provenance.json; default: the folder's own"
     )
@@ -52,15 +54,37 @@ def run(arguments):
     """
     path = Path(arguments.check)
     if path.is_dir():
-        return _told(_judged(path, arguments.against, arguments.published))
-    if path.name.lower().endswith(_ARCHIVES):
-        return _told(_of_archive(path, arguments.against, arguments.published))
+        _refuse_within(path, arguments.output)
+        outcome = _told(_judged(path, arguments.against, arguments.published))
+    elif path.name.lower().endswith(_ARCHIVES):
+        outcome = _told(_of_archive(path, arguments.against, arguments.published))
+    else:
+        outcome = Outcome(verdict(_rows(path), path))
+    if arguments.output:
+        write_text(arguments.output, outcome.text + "\n")
+    return outcome
+
+
+def _rows(path):
+    """The rows of a check; what is none is refused before its digest is asked for."""
     if path.suffix == ".zip":
         raise StorageError(f"{path}: unpack it, and name its folder")
-    line = verdict(read_csv(path), path)
-    if arguments.output:
-        write_text(arguments.output, line + "\n")
-    return Outcome(line)
+    if path.exists() and path.suffix != ".csv":
+        raise StorageError(f"{path}: no check, which is a table, .csv; {_NAMED}")
+    rows = read_csv(path)
+    absent = [column for column in _COLUMNS if column not in rows[0]]
+    if absent:
+        raise StorageError(f"{path}: no check: it has no column {', '.join(absent)}; {_NAMED}")
+    return rows
+
+
+def _refuse_within(folder, output):
+    """Refuse to write among the results that are judged, where it would be in no record."""
+    from signorini.provenance.whole import parts_of
+
+    for results in parts_of(folder) or [folder]:
+        if output and Path(output).resolve().is_relative_to(results.resolve()):
+            raise StorageError(f"-o {output}: is among the results; name a file outside {results}")
 
 
 @dataclass(frozen=True)

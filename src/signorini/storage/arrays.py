@@ -4,7 +4,7 @@ import os
 import zipfile
 
 from signorini.exceptions import StorageError
-from signorini.storage.files import missing, replacing
+from signorini.storage.files import missing, replacing, unreadable
 
 _PLAIN = 2**30  # bytes; up to this no entry is written as ZIP64, whose header differs by Python
 
@@ -82,6 +82,8 @@ def read_npz(path, kind):
                 raise ValueError("entries are missing")
     except FileNotFoundError:
         raise missing(path) from None
+    except (IsADirectoryError, NotADirectoryError, PermissionError) as error:
+        raise unreadable(path, error) from error
     except (OSError, ValueError, EOFError, RuntimeError, MemoryError, zipfile.BadZipFile) as error:
         raise StorageError(
             f"{path}: truncated or altered ({error}); delete it and rerun"

@@ -1,5 +1,6 @@
 """Files with a digest: written whole or not at all, and refused when truncated or altered."""
 
+import errno
 import hashlib
 import json
 import os
@@ -8,6 +9,14 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from signorini.exceptions import StorageError
+
+# What stops a file from being read and is no damage: to delete it would be wrong.
+_REMEDIES = {
+    errno.ENOTDIR: "correct the name",
+    errno.EISDIR: "name a file",
+    errno.EACCES: "make it readable",
+    errno.EPERM: "make it readable",
+}
 
 
 @contextmanager
@@ -118,9 +127,14 @@ def read_sealed(path):
     Raises
     ------
     StorageError
-        If the file is missing, or is not what its digest says.
+        If the file is missing, has no digest, or is not what its digest says.
     """
     content = read_bytes(path)
+    if not digest_file(path).exists():
+        raise StorageError(
+            f"{path}: there is no {digest_file(path).name} beside it, so that signorini did not "
+            "write it, or the digest was lost; name a file that signorini wrote, or make it again"
+        )
     if not _sealed(content, digest_file(path)):
         raise StorageError(
             f"{path}: truncated or altered (its digest is not that in {digest_file(path).name}); "
@@ -153,9 +167,19 @@ def read_bytes(path):
     except FileNotFoundError:
         raise missing(path) from None
     except OSError as error:
-        raise StorageError(
-            f"{path}: cannot read ({error.strerror}); delete it and rerun"
-        ) from error
+        raise unreadable(path, error) from error
+
+
+def unreadable(path, error):
+    """The `StorageError` of a file that the system does not read.
+
+    Examples
+    --------
+    >>> str(unreadable("results", IsADirectoryError(errno.EISDIR, "Is a directory")))
+    'results: cannot read (Is a directory); name a file'
+    """
+    remedy = _REMEDIES.get(error.errno, "delete it and rerun")
+    return StorageError(f"{path}: cannot read ({error.strerror}); {remedy}")
 
 
 def _sealed(content, digest):

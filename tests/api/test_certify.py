@@ -26,6 +26,12 @@ def test_the_error_lies_between_the_bounds(element):
     assert signorini.certify(question).upper == found.upper
 
 
+def test_what_a_certificate_shows_fits_on_a_few_lines():
+    found = signorini.certify(problem("P1", n=4))
+    assert f"upper={found.upper!r}" in repr(found)
+    assert "contributions" not in repr(found)
+
+
 @pytest.mark.parametrize("element", ["P1", "CR"])
 def test_a_solution_by_another_quadrature_is_certified_too(element):
     conditions = {"f": "9*sin(7*x)", "dirichlet": {"top": 0}, "contact": "bottom"}

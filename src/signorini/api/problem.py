@@ -15,6 +15,7 @@ from signorini.api.arguments import (
 from signorini.api.domains import as_mesh
 from signorini.api.exact import check_functions, read_exact_solution
 from signorini.api.meshes import Mesh
+from signorini.api.parts import check_part_labels, check_part_names, labels_of_parts
 from signorini.api.types import Datum, Names, PartwiseDatum
 from signorini.exact import ExactSolution, derived_data, with_coefficient
 from signorini.exceptions import SceneError
@@ -68,7 +69,8 @@ def problem(
     g : datum, or dict of part of the boundary to datum, optional
         Flux on the Neumann part, unit of k u per length; 0 by default.
     obstacle : datum, or dict of part of the boundary to datum, optional
-        Unit of u; 0 by default.
+        Unit of u; 0 by default, also on a part in contact that the dict leaves out. Where two parts
+        in contact meet, their values must, too.
     dirichlet : dict of part of the boundary to datum; or names, optional
         Where u is given, and its values there, unit of u; 0 where only names are given.
     contact : str or sequence of str, optional
@@ -78,7 +80,8 @@ def problem(
     coefficient : datum, or dict of subdomain to number, optional
         Diffusion coefficient k > 0, taken at the centroid of each triangle; 1 by default.
     contact_flux : datum, or dict of part of the boundary to datum, optional
-        The threshold s, unit of k u per length; 0 by default.
+        The threshold s, unit of k u per length; 0 by default, also on a part in contact that the
+        dict leaves out.
     constraint : {"lower", "upper"}, optional
         For upper both inequalities are reversed.
     exact : ExactSolution, str, dict, or pair (u, gradient), optional
@@ -120,6 +123,7 @@ def problem(
     _check_choices(
         constraint=constraint, load_quadrature=load_quadrature, load_precision=load_precision
     )
+    on_contact = {"obstacle": obstacle, "contact_flux": contact_flux}
     load: dict[str, Any] = {"load_quadrature": load_quadrature, "load_precision": load_precision}
     given = _read_data(
         f=f, g=g, obstacle=obstacle, coefficient=coefficient, contact_flux=contact_flux
@@ -130,10 +134,16 @@ def problem(
         truth = with_coefficient(read_exact_solution(exact), given.get("coefficient"))
     if isinstance(mesh, Grid | Triangulation):
         _refuse_labels(contact=contact, neumann=neumann)
+        partwise = {"dirichlet": dirichlet, "g": g} | on_contact
+        labels = labels_of_parts(mesh)
+        check_part_names(labels, **partwise)
+        check_part_labels(labels, **partwise)
         given |= _read_data(dirichlet=dirichlet)
         return _on_labelled(mesh, element, _data(given, truth), load)
     mesh = as_mesh(mesh)
     labels = _labels(mesh, dirichlet, contact, neumann, g)
+    check_part_names(mesh.boundaries, **on_contact)
+    check_part_labels(labels, **on_contact)
     if isinstance(dirichlet, Mapping):
         given |= _read_data(dirichlet=dirichlet)
     domain, boundary = mesh.labelled(labels, "neumann" if neumann is None else None)

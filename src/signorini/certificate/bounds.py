@@ -1,6 +1,6 @@
 """Bounds of what an element is off by, from an enclosure; docs/certificate.md proves each."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -49,7 +49,7 @@ class Certificate:
     dual: float
     l2: float | None
     steps: int
-    contributions: np.ndarray
+    contributions: np.ndarray = field(repr=False)
 
 
 def certify_p1(enclosure, u):

@@ -70,16 +70,18 @@ def values_at(mesh, element, datum, dofs, check=True):
     return values
 
 
-def check_parts_meet(mesh, datum):
+def check_parts_meet(mesh, datum, label):
     """Refuse a datum whose values jump where two of its parts meet.
 
-    No continuous function has them.
+    No continuous function has them. Where `label` holds and no part is named, it is 0.
 
     Parameters
     ----------
     mesh : Grid or Triangulation
     datum : ByPart
         Anything else is not looked at.
+    label : {"dirichlet", "contact"}
+        Of the parts that it acts on.
 
     Raises
     ------
@@ -91,11 +93,13 @@ def check_parts_meet(mesh, datum):
     >>> from signorini.formula import Formula
     >>> from signorini.mesh.grid import Grid
     >>> grid = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", ("dirichlet",) * 4)
-    >>> check_parts_meet(grid, Formula("x", "data.dirichlet"))
+    >>> check_parts_meet(grid, Formula("x", "data.dirichlet"), "dirichlet")
     """
     if not isinstance(datum, ByPart):
         return
     seen, values = np.zeros((2, mesh.number_of_vertices))
+    rest = np.unique(mesh.facet_ends(_facets_left_out(mesh, datum, label)))
+    seen[rest] = 1.0
     for name, own in datum.parts.items():
         vertices = mesh.boundary_vertices(part_key(name))
         new = own(*mesh.points(vertices), check=False)
@@ -105,8 +109,15 @@ def check_parts_meet(mesh, datum):
         if jumps.any():
             k = int(np.argmax(jumps))
             x, y = mesh.points(vertices[k : k + 1])[:, 0]
+            other = "a part that is left out" if vertices[k] in rest else "another part"
             raise SceneError(
-                f"{datum.field}.{name}: {new[k]:.6g} at ({x:.6g}, {y:.6g}), where another part "
+                f"{datum.field}.{name}: {new[k]:.6g} at ({x:.6g}, {y:.6g}), where {other} "
                 f"of {datum.field} has {before[k]:.6g}; let the values of both meet there"
             )
         seen[vertices], values[vertices] = 1.0, new
+
+
+def _facets_left_out(mesh, datum, label):
+    """The facets that carry a label and are on no part of a `ByPart`."""
+    parts = [mesh.boundary_facets(part_key(name)) for name in datum.parts]
+    return np.setdiff1d(mesh.boundary_facets(label), np.concatenate([*parts, []]))

@@ -88,8 +88,8 @@ def discretize_on(mesh, element, statement):
     fixed = finite_element.boundary_dofs(mesh, "dirichlet")
     contact = finite_element.boundary_dofs(mesh, "contact")
     contact = np.setdiff1d(contact, fixed, assume_unique=True)
-    for datum in (data.dirichlet, data.obstacle):
-        check_parts_meet(mesh, datum)
+    for label, datum in (("dirichlet", data.dirichlet), ("contact", data.obstacle)):
+        check_parts_meet(mesh, datum, label)
     lower = values_at(mesh, finite_element, data.obstacle, contact)
     fixed_values = values_at(mesh, finite_element, data.dirichlet, fixed)
     check_corners(mesh, data, size=max(_largest(lower), _largest(fixed_values)))

@@ -137,7 +137,7 @@ def test_the_page_tells_what_a_guarantee_costs():
 def test_the_page_tells_where_the_library_solves_in_full(text):
     words = " ".join(text.split())
     assert "On 2 of 4 levels, the coarsest, the library solves in full" in words
-    assert "cannot be told." in words
+    assert "cannot be told" in words
 
 
 def test_rivals_are_in_the_order_of_their_titles_with_what_became_of_their_problems():

@@ -193,19 +193,23 @@ def strip(rows):
     ]
 
 
-def test_another_question_starts_anew(tmp_path):
+def test_another_question_is_refused(tmp_path):
     scene = scene_of("corner")
     goal = Goal(start=4)
     keys = [key_of(scene, goal), key_of(scene, replace(goal, bound=0.1, max_dofs=7))]
     assert keys[0] == keys[1]
     assert key_of(scene, replace(goal, theta=0.3)) != keys[0]
     assert key_of(scene_of("punch"), goal) != keys[0]
-    record = Record(keys[0])
+    record = Record(keys[0], "corner")
     (step,) = adaptive_steps(scene.problem_statement, replace(goal, max_seconds=0.0))
     record.add(step)
     record.write(tmp_path)
     assert Record.read(tmp_path, keys[0]).rows == record.rows
-    assert Record.read(tmp_path, "another").rows == []
+    other = key_of(scene, replace(goal, element="CR", theta=0.3))
+    with pytest.raises(StorageError, match=r"of corner with element P1, theta 0\.5; name"):
+        Record.read(tmp_path, other)
+    with pytest.raises(StorageError, match="holds a run of corner; name another folder, or --rest"):
+        Record.read(tmp_path, key_of(scene_of("punch"), goal))
     (tmp_path / "run.npz").write_bytes(b"half")
     with pytest.raises(StorageError, match=r"run\.npz: truncated or altered"):
         Record.read(tmp_path, keys[0])

@@ -278,7 +278,10 @@ def asked(mesh=MESH, *arguments, **changes):
             "boundary_shape.top: 3 (int) is no curve; give a formula",
         ),
         (lambda: MESH.refined(-1), "times: -1 (int) is not valid"),
-        (lambda: signorini.triangulation(SQUARE).level(3), "3 is no uniform refinement"),
+        (
+            lambda: signorini.triangulation(SQUARE).level(3),
+            "3 is not 1 times a power of two; for instance 2 or 4",
+        ),
         (
             lambda: signorini.Problem("P1", SQUARE, *[np.zeros(1)] * 5),
             "mesh: a MeshTri1 has no labelled boundary; let signorini.problem",

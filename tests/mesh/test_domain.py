@@ -124,9 +124,12 @@ def test_a_polygon_is_refined_from_its_root_and_keeps_its_labels():
     assert domain.level(4).number_of_triangles == 4 * domain.level(2).number_of_triangles
 
 
-@pytest.mark.parametrize("n", [1, 3, 6, 12])
-def test_a_level_that_is_no_refinement_is_refused(n):
-    with pytest.raises(MeshError, match=f"levels: {n} is no uniform refinement"):
+@pytest.mark.parametrize(
+    ("n", "near"), [(1, "2 or 4"), (3, "2 or 4"), (6, "4 or 8"), (12, "8 or 16")]
+)
+def test_a_level_that_is_no_refinement_is_refused_and_its_neighbours_are_told(n, near):
+    said = f"levels: {n} is not 2 times a power of two; for instance {near}$"
+    with pytest.raises(MeshError, match=said):
         make_domain(L_SHAPE, L_LABELS, 2).level(n)
 
 

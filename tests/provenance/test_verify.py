@@ -50,8 +50,10 @@ def test_one_digit_is_told(folder, capsys):
     assert (found["kind"], found["path"]) == ("changed", "a/table.csv")
 
 
-def test_a_file_less_and_a_file_more_are_told(folder):
+def test_a_file_less_and_a_file_more_are_told(folder, capsys):
     (folder / "a/table.csv").rename(folder / "a/mine.csv")
+    main(["verify", str(folder)])
+    assert capsys.readouterr().out.endswith("findings; move what is extra elsewhere\n")
     assert findings(folder) == {("missing", "a/table.csv"), ("extra", "a/mine.csv")}
 
 

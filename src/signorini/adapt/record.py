@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -9,9 +10,11 @@ import numpy as np
 
 from signorini.adapt.loop import STAGES
 from signorini.errors.exact import ExactErrors
+from signorini.exceptions import StorageError
 from signorini.storage import read_npz, write_csv, write_npz
 
 _FILE, _KIND = "run.npz", "adaptive run"
+_FILES = {_FILE, "steps.csv", "seconds.csv", "picture.npz", "solution.npz"}
 # Of a goal: they may change, and the run goes on.
 _LIMITS = ("bound", "max_dofs", "max_seconds", "max_memory")
 
@@ -24,6 +27,8 @@ class Record:
     ----------
     key : str
         What question the run answers: statement and goal, without limits.
+    name : str, optional
+        Of the scene, to tell whose run it is.
     rows : list of dict
         Two for each step, one for each element; see `rows_of`.
     seconds : list of dict
@@ -33,6 +38,7 @@ class Record:
     """
 
     key: str
+    name: str = ""
     rows: list = field(default_factory=list)
     seconds: list = field(default_factory=list)
     marks: list = field(default_factory=list)
@@ -62,19 +68,22 @@ class Record:
         """
         sizes = np.array([marked.size for marked in self.marks], dtype=np.int64)
         bits = np.packbits(np.concatenate([np.zeros(0, dtype=bool), *self.marks]))
-        told = json.dumps({"key": self.key, "rows": self.rows, "seconds": self.seconds})
+        facts = {"key": self.key, "name": self.name, "rows": self.rows, "seconds": self.seconds}
+        told = json.dumps(facts)
         write_csv(folder / "steps.csv", self.rows)
         write_csv(folder / "seconds.csv", self.seconds)
         write_npz(folder / _FILE, _KIND, told=told, sizes=sizes, marks=bits)
 
     @classmethod
-    def read(cls, folder, key):
-        """Go on with what is kept in a folder, or start anew where that is another question.
+    def read(cls, folder, key, name=""):
+        """Go on with what is kept in a folder, or begin where nothing is.
 
         Parameters
         ----------
         folder : Path
         key : str
+        name : str, optional
+            Of the scene.
 
         Returns
         -------
@@ -83,17 +92,46 @@ class Record:
         Raises
         ------
         StorageError
-            If what is kept is truncated or altered.
+            If what is kept is truncated or altered, or answers another question.
         """
         if not (folder / _FILE).exists():
-            return cls(key)
+            return cls(key, name)
         kept = read_npz(folder / _FILE, _KIND)
         told = json.loads(str(kept["told"]))
         if told["key"] != key:
-            return cls(key)
+            told_of = _run_of(told, json.loads(key)[1])
+            remedy = "name another folder, or --restart, which forgets it"
+            raise StorageError(f"{folder}: holds {told_of}; {remedy}")
         flat = np.unpackbits(kept["marks"], count=int(kept["sizes"].sum())).astype(bool)
         ends = np.cumsum(kept["sizes"])
-        return cls(key, told["rows"], told["seconds"], np.split(flat, ends)[: ends.size])
+        return cls(key, name, told["rows"], told["seconds"], np.split(flat, ends)[: ends.size])
+
+
+def _run_of(told, chosen):
+    """Words for a run: its scene, and what was chosen otherwise than here."""
+    kept = json.loads(told["key"])[1]
+    others = [f"{name} {value}" for name, value in kept.items() if chosen.get(name) != value]
+    name = told.get("name") or "another scene"
+    return f"a run of {name}" + (f" with {', '.join(others)}" if others else "")
+
+
+def refuse_foreign(folder):
+    """Refuse a folder that has files, and none of a run.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Raises
+    ------
+    StorageError
+    """
+    if folder.exists() and not folder.is_dir():
+        raise StorageError(f"{folder}: is no folder; name one that is new, or holds a run")
+    names = sorted(os.listdir(folder)) if folder.is_dir() else []
+    foreign = [name for name in names if name not in _FILES and not name.startswith(".")]
+    if foreign and _FILE not in names:
+        raise StorageError(f"{folder}: holds {foreign[0]} and no run; name a new folder")
 
 
 def key_of(scene, goal):

@@ -5,7 +5,7 @@ kept in the folder: interrupted, or asked for a smaller bound, the command goes 
 option goes before the scene's section adapt, which goes before the defaults here.
 
 example:
-  signorini adapt config/scenes/corner.yaml --bound 0.05 -o results/corner/adapt
+  signorini adapt config/scenes/corner.yaml --bound 0.05 -o build/corner-adapt
 """
 
 import logging
@@ -13,10 +13,16 @@ from dataclasses import replace
 from pathlib import Path
 
 from signorini.adapt.loop import Goal, adaptive_steps
-from signorini.adapt.record import Record, key_of, write_picture, write_solution_of
+from signorini.adapt.record import (
+    Record,
+    key_of,
+    refuse_foreign,
+    write_picture,
+    write_solution_of,
+)
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_scene, scene_of
-from signorini.exceptions import SceneError
+from signorini.exceptions import MeshError, SceneError
 from signorini.fem.element_facts import ELEMENT_NAMES
 from signorini.scene.scene import naming
 
@@ -65,15 +71,24 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Run, and write steps.csv, seconds.csv, run.npz, picture.npz and solution.npz."""
+    """Run, and write steps.csv, seconds.csv, run.npz, picture.npz and solution.npz.
+
+    Raises
+    ------
+    SignoriniError
+        If an option is not valid, or the folder holds another run or foreign files.
+    """
     scene = scene_of(arguments.scene)
     goal = goal_of(scene, arguments)
     folder = arguments.output
+    refuse_foreign(folder)
     with naming(scene.source):
         statement = scene.problem_statement
         statement.check()
+        _check_start(statement, goal.start, "adapt.start" if arguments.start is None else "--start")
         key = key_of(scene, goal)
-        record = Record(key) if arguments.restart else Record.read(folder, key)
+        begun = (key, scene.name)
+        record = Record(*begun) if arguments.restart else Record.read(folder, *begun)
         if arguments.warm:
             next(adaptive_steps(statement, goal))
         for step in adaptive_steps(statement, goal, record.marks):
@@ -120,6 +135,14 @@ def goal_of(scene, arguments):
     if not goal.bound >= 0.0:
         raise SceneError(f"--bound {goal.bound:g}: give a positive error, or 0 for no bound")
     return goal
+
+
+def _check_start(statement, n, option):
+    """Refuse a first mesh that the domain does not have, by the name of its option."""
+    try:
+        statement.triangulations.count_triangles(n)
+    except MeshError as error:
+        raise SceneError(f"{option}: {str(error).removeprefix('levels: ')}") from None
 
 
 def _told(rows):

@@ -110,6 +110,8 @@ def _told(judgement):
     """The outcome: a line for each finding, and what was met."""
     count = len(judgement.findings)
     summary = f"{count} findings" if count else "as its record says"
+    if any(finding.kind == "extra" for finding in judgement.findings):
+        summary += "; move what is extra elsewhere"
     commit = f"commit {judgement.source.get('commit')}"
     lines = [*map(str, judgement.findings), *judgement.told, commit, f"{judgement.name}: {summary}"]
     lines = map(printable, lines)  # names and words may be anybody's

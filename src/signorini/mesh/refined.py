@@ -58,9 +58,10 @@ class Refined:
         ratio, rest = divmod(n, self.coarsest)
         is_power_of_two = ratio >= 1 and ratio & (ratio - 1) == 0
         if rest or not is_power_of_two:
+            below = self.coarsest << (max(ratio, 1).bit_length() - 1)
             raise MeshError(
-                f"levels: {n} is no uniform refinement of the root's level {self.coarsest}; "
-                "double it"
+                f"levels: {n} is not {self.coarsest} times a power of two; "
+                f"for instance {below} or {2 * below}"
             )
         return ratio**2 * self.root.number_of_triangles
 

@@ -61,7 +61,7 @@ def test_a_name_cannot_pretend_to_be_a_verdict(folder, capsys):
     out = capsys.readouterr().out
     assert "x\\x0aresults: as" in out
     assert "\x1b" not in out
-    assert out.splitlines()[-1].endswith("2 findings")
+    assert out.splitlines()[-1].endswith("results: 2 findings; move what is extra elsewhere")
 
 
 def test_a_commit_cannot_pretend_to_be_a_verdict(folder, capsys):

@@ -69,6 +69,27 @@ def printable(text):
     return "".join(each if each.isprintable() else f"\\x{ord(each):02x}" for each in text)
 
 
+def counted(count, word):
+    """A number of things, in words.
+
+    Parameters
+    ----------
+    count : int
+    word : str
+        Of one of them; of others with an s.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> counted(1, "level"), counted(3, "level")
+    ('1 level', '3 levels')
+    """
+    return f"{count} {word}" if count == 1 else f"{count} {word}s"
+
+
 def _beginning(value, deep=4):
     """What of a value can be shown: a few levels of lists and dicts, the first entries of each."""
     if isinstance(value, str):

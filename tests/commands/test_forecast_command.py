@@ -45,14 +45,21 @@ def test_points_jobs_and_solves_of_a_sweep(told):
     assert data["seconds"] == pytest.approx(sum(row["seconds"] for row in data["rules"]))
 
 
-def test_a_table_has_a_line_for_each_rule_and_one_for_all(told):
+def test_a_table_has_a_line_for_each_rule_and_their_sum(told):
     first, head, *lines = told(SCENE + SWEEP, "--sweep-jobs", "16").splitlines()
     assert first == "scene: 1200 points, 7206 solves in 25 jobs"
     assert head.split()[:3] == ["rule", "jobs", "solves"]
     counts = {line.split()[0]: line.split()[1:3] for line in lines[:6]}
     assert counts["sweep_points"] == ["16", "7200"]
-    assert counts["all"] == ["25", "7206"]
+    assert counts["sum"] == ["25", "7206"]
     assert lines[6].startswith("With 2 cores about ")
+    assert lines[7].startswith("Not counted: jobs that measure, tabulate and draw")
+
+
+def test_one_is_told_in_the_singular_and_a_sample_larger_than_all_is_all(told):
+    out = told(SCENE.replace("[2, 4, 8]", "[2]"), "--cores", "1", "--sample", "99")
+    assert "With 1 core about " in out
+    assert "A sample of 1 level (there are no 99), 2 solves: " in out
 
 
 @pytest.mark.parametrize(

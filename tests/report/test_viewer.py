@@ -114,8 +114,15 @@ def test_a_text_of_a_scene_cannot_end_its_element(data):
 def test_a_folder_that_was_not_built_is_refused(tmp_path, capsys):
     words = ["viewer", "config/scenes/punch.yaml", "--results", str(tmp_path), "-o"]
     assert main([*words, str(tmp_path / "viewer.html")]) == 1
-    assert "build the scene with snakemake --config scenes=[punch]" in capsys.readouterr().err
+    remedy = "build the scene with snakemake --cores 2 --config 'scenes=[punch]'"
+    assert remedy in capsys.readouterr().err
     assert not (tmp_path / "viewer.html").exists()
+
+
+def test_a_file_is_no_folder_of_a_build(tmp_path, capsys):
+    words = ["viewer", "config/scenes/punch.yaml", "--results", "README.md", "-o"]
+    assert main([*words, str(tmp_path / "viewer.html")]) == 1
+    assert "--results README.md: is a file; name the folder of a build" in capsys.readouterr().err
 
 
 STEPS = """

@@ -32,8 +32,10 @@ from signorini.sweeps.forecast import (
     sweep_jobs,
 )
 from signorini.sweeps.sample import sample_points, spread
+from signorini.wording import counted
 
 _HEAD = ("rule", "jobs", "solves", "processor time, s", "peak memory, MB", "on disk, MB")
+_NOT_COUNTED = "Not counted: jobs that measure, tabulate and draw, and Snakemake itself."
 _UNCOUNTED = "The triangles of a mesh file are not counted: all figures but counts are too low."
 
 
@@ -98,19 +100,21 @@ def _forecast(scene, cores, most):
 def _told(scene, data):
     """The lines of a forecast."""
     largest = max(row["memory"] for row in data["rules"])
-    total = data | {"rule": "all", "memory": largest}
+    total = data | {"rule": "sum", "memory": largest}
     rows = [_HEAD, *map(_cells, [*data["rules"], total])]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    points = f"{data['points']} points, " if data["points"] else ""
+    points = f"{counted(data['points'], 'point')}, " if data["points"] else ""
+    solves, jobs = counted(data["solves"], "solve"), counted(data["jobs"], "job")
     last = (
-        f"With {data['cores']} cores about {data['elapsed']:.1f} s, "
+        f"With {counted(data['cores'], 'core')} about {data['elapsed']:.1f} s, "
         f"and at most {data['memory'] / 1e6:.0f} MB at once."
     )
     uncounted = [] if data["counted"] else [_UNCOUNTED]
     return [
-        f"{scene.name}: {points}{data['solves']} solves in {data['jobs']} jobs",
+        f"{scene.name}: {points}{solves} in {jobs}",
         *(_line(row, widths) for row in rows),
         last,
+        _NOT_COUNTED,
         *uncounted,
     ]
 
@@ -139,7 +143,7 @@ def _sampled(scene, count):
         else:
             chosen, kind = spread(scene.levels, count), "levels"
             solves, forecast, measured = _sampled_levels(scene, chosen, Path(folder))
-    found = {"of": kind, "count": len(chosen), "solves": solves}
+    found = {"of": kind, "asked": count, "count": len(chosen), "solves": solves}
     times = {"forecast": forecast, "measured": measured, "ratio": forecast / measured}
     return found | times
 
@@ -165,8 +169,10 @@ def _solve(scene, file, folder, element, n):
 
 
 def _told_sample(sample):
+    of, solves = sample["of"].removesuffix("s"), counted(sample["solves"], "solve")
+    fewer = f" (there are no {sample['asked']})" if sample["asked"] > sample["count"] else ""
     return (
-        f"A sample of {sample['count']} {sample['of']}, {sample['solves']} solves: forecast "
+        f"A sample of {counted(sample['count'], of)}{fewer}, {solves}: forecast "
         f"{sample['forecast']:.3g} s, measured {sample['measured']:.3g} s of processor time, "
         f"forecast over measured {sample['ratio']:.2f}."
     )

@@ -39,6 +39,30 @@ def check_there(path):
     raise SceneError(f"{path}: there is no such file; {remedy}")
 
 
+def make_folder(path):
+    """Make a folder for results before any work is done, so that no work is lost.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    SceneError
+        Where a file is in its place, or nothing can be written.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        there = next(each for each in (path, *path.parents) if os.path.lexists(each))
+        raise SceneError(f"{there} is a file; name a folder") from None
+    except OSError as error:
+        told = f"cannot be made ({error.strerror}); name another folder"
+        raise SceneError(f"{path}: {told}") from None
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise SceneError(f"{path}: nothing can be written there; name another folder")
+
+
 @cache
 def scene_of(path):
     """The scene that an argument names.

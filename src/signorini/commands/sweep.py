@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_scene
+from signorini.commands.inputs import add_scene, make_folder
 from signorini.commands.sources import content_of
 from signorini.commands.sweep_figure import draw
 from signorini.commands.sweep_inputs import swept_scene
@@ -59,6 +59,7 @@ def run(arguments):
     if arguments.dry_run:
         more = [f"... and {len(new) - _SHOWN} more"] if len(new) > _SHOWN else []
         return Outcome("\n".join([told, *new[:_SHOWN], *more]), {"points": len(points), "new": new})
+    make_folder(folder)
     (ordered,) = bundles(scene.document["sweep"], most=1)
     job = points_job(scene, [point for point in ordered if point.name in {*new}])
     print(f"{told}, about {job.seconds:.1f} s of processor time", file=sys.stderr)

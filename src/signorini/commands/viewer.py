@@ -72,6 +72,8 @@ def _solutions(scene, folder):
     """Those of a build, or without one solved here, one after the other."""
     if folder is None:
         return solve_levels(scene)
+    if folder.exists() and not folder.is_dir():
+        raise SceneError(f"--results {folder}: is a file; name the folder of a build")
     files = [
         folder / "solutions" / element / f"n{n}.npz"
         for element in scene.elements
@@ -81,7 +83,7 @@ def _solutions(scene, folder):
     if missing:
         raise SceneError(
             f"--results {folder}: there is no {missing[0]}; build the scene with "
-            f"snakemake --config scenes=[{scene.name}], or drop --results"
+            f"snakemake --cores 2 --config 'scenes=[{scene.name}]', or drop --results"
         )
     return map(read_solution, files)
 

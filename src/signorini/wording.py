@@ -106,6 +106,34 @@ def _beginning(value, deep=4):
     return value if isinstance(value, int | float | None) else "..."
 
 
+def takes_two(function):
+    """Whether a function can be called with two arguments.
+
+    Parameters
+    ----------
+    function : callable
+
+    Returns
+    -------
+    bool
+        True also where its signature is not known.
+
+    Examples
+    --------
+    >>> takes_two(lambda x, y: x), takes_two(lambda x: x[0])
+    (True, False)
+    """
+    import inspect
+
+    try:
+        inspect.signature(function).bind(0, 0)
+    except TypeError:
+        return False
+    except ValueError:  # of some functions in C nothing is known
+        return True
+    return True
+
+
 _FEW = 12  # names beside the nearest one
 
 

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -25,6 +26,12 @@ def both(n):
     return [signorini.problem(mesh, element, **asked) for element in ("P1", "CR")]
 
 
+def table(**columns):
+    """A table of errors as a program may make it."""
+    rows = {"element": "P1", "h": [0.5, 0.25], "l2": [4.0, 1.0], "floor": ""}
+    return pd.DataFrame(rows | columns)
+
+
 def test_a_program_and_a_scene_that_say_the_same_have_the_same_table():
     theirs = signorini.convergence(signorini.Scene.from_dict(SCENE))
     ours = signorini.convergence(both, SCENE["levels"], "smooth")
@@ -38,6 +45,11 @@ def test_the_table_of_a_scene_is_the_errors_csv_of_its_command(tmp_path):
     ours = signorini.convergence(signorini.load_scene(scene))
     assert list(ours.columns) == list(theirs.columns)
     pd.testing.assert_frame_equal(ours, theirs, check_dtype=False)
+
+
+def test_levels_may_be_whole_numbers_of_any_type():
+    frame = signorini.convergence(both, [4.0, np.int64(8)], "smooth", ["l2"])
+    pd.testing.assert_frame_equal(frame, signorini.convergence(both, [4, 8], "smooth", ["l2"]))
 
 
 def test_slopes_are_those_of_the_theory():
@@ -67,6 +79,27 @@ def test_against_a_finer_solution():
         (lambda: signorini.convergence(both, [4]), "truth: missing"),
         (lambda: signorini.convergence(both, [], "x"), "levels: [] (list) has no level; give"),
         (lambda: signorini.convergence(both, 4, "x"), "levels: 4 (int) has no level; give"),
+        (
+            lambda: signorini.convergence(both, [8, 8], "x"),
+            "levels: [8, 8] is not increasing; list",
+        ),
+        (
+            lambda: signorini.convergence(both, [8, 4], "x"),
+            "levels: [8, 4] is not increasing; list",
+        ),
+        (lambda: signorini.convergence(both, [8.5], "x"), "levels: 8.5 (float) is no whole number"),
+        (lambda: signorini.convergence(both, "8", "x"), "levels: '8' (str) is no whole number"),
+        (
+            lambda: signorini.convergence(both, [4], both(8)[0]),
+            "truth: a Problem is not solved yet; give signorini.solve(...) of it",
+        ),
+        (lambda: signorini.rates(table(h=[0.5, 0.5])), "h = 0.5 is there twice for one element"),
+        (lambda: signorini.rates(table(h=[0.5, 0.0])), "h = 0.0 is no mesh width"),
+        (lambda: signorini.rates(table(h=["0.5", "0.25"])), "h = '0.5' is no mesh width"),
+        (
+            lambda: signorini.rates(table(l2=[1.0, None])),
+            "the error at h = 0.25 is None, no number",
+        ),
         (lambda: signorini.convergence(lambda n: 3, [4], "x"), "problem_of_level: 3 (int) for n"),
         (lambda: signorini.convergence(lambda n: [n], [4], "x"), "problem_of_level: 4 (int) for n"),
         (

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import skfem
 
 import signorini
-from signorini.exceptions import FormulaError
+from signorini.exceptions import FormulaError, SignoriniError
+from signorini.mesh.boundary import SIDES
 
 FIELDS = ("f", "g", "dirichlet", "obstacle", "coefficient", "contact_flux")
 
@@ -49,6 +51,10 @@ def nothing(x, y):
     return None
 
 
+def of_one_array(x):
+    return x[0]
+
+
 def by_halves(x, y):
     return 1.0 if x > 0.5 else 0.0
 
@@ -63,7 +69,8 @@ FAULTS = {
     too_long: "return an array of their shape, or a number",
     a_column: "return an array of their shape, or a number",
     words: "its values must be real",
-    nothing: "its values must be real",
+    nothing: "returns None; is a return missing?",
+    of_one_array: "write a function of two arrays, lambda x, y: ...",
     by_halves: "write it with NumPy, np.where for if",
 }
 
@@ -81,3 +88,21 @@ def test_a_function_without_proper_values_is_refused(field, element, fault):
     assert told.startswith(f"{place}: {fault.__name__}(x, y) ")
     assert FAULTS[fault] in told
     assert "\n" not in told
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        (of_one_array, "write a function of two arrays, lambda x, y: ..."),
+        (nothing, "returns None; is a return missing?"),
+    ],
+)
+@pytest.mark.parametrize("place", ["boundaries", "subdomains", "exact"])
+def test_functions_that_are_no_data_are_told_the_same(place, fault, words):
+    mesh = skfem.MeshTri().refined(2)
+    named = {} if place == "exact" else {place: {"own": fault}}
+    exact = (np.add, fault) if place == "exact" else None
+    with pytest.raises(SignoriniError) as refused:
+        signorini.problem(signorini.triangulation(mesh, **named), f=0, dirichlet=SIDES, exact=exact)
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)

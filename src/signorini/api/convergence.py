@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from signorini.api.arguments import described
@@ -13,6 +15,7 @@ from signorini.errors.measure import row
 from signorini.exceptions import SceneError, SignoriniError
 from signorini.fem.problem import Problem
 from signorini.scene.scene import Scene
+from signorini.wording import shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -32,7 +35,7 @@ def convergence(
         A scene, which has its own levels, elements, truth and norms. Or a function from a level n
         to a `Problem`, or to several, such as one for each element.
     levels : sequence of int, optional
-        With a function: increasing.
+        With a function: increasing, whole numbers.
     truth : optional
         With a function: what `Solution.errors` takes, an exact solution or a finer one.
     norms : sequence of str, optional
@@ -71,10 +74,26 @@ def convergence(
     if levels is None or truth is None:
         missing = "levels" if levels is None else "truth"
         raise SceneError(f"{missing}: missing; beside a function of n give levels and truth")
-    levels = list(levels) if isinstance(levels, Iterable) else levels
-    if not levels or not isinstance(levels, list):
+    return as_frame(_rows(scene, _read_levels(levels), truth, norms))
+
+
+def _read_levels(levels: Any) -> list[int]:
+    """Levels as whole numbers, each once, coarsest first."""
+    given = list(levels) if isinstance(levels, Iterable) else []
+    if not given:
         raise SceneError(f"levels: {described(levels)} has no level; give a list, as [8, 16, 32]")
-    return as_frame(_rows(scene, levels, truth, norms))
+    for n in given:
+        is_number = isinstance(n, Real) and not isinstance(n, bool)
+        if not is_number or not float(n).is_integer():
+            raise SceneError(
+                f"levels: {described(n)} is no whole number; give a list, as [8, 16, 32]"
+            )
+    whole = [int(n) for n in given]
+    if any(b <= a for a, b in pairwise(whole)):
+        raise SceneError(
+            f"levels: {shown(whole)} is not increasing; list each level once, coarsest first"
+        )
+    return whole
 
 
 def _refuse(**given: Any) -> None:
@@ -136,7 +155,8 @@ def rates(errors: "DataFrame") -> "DataFrame":
     Raises
     ------
     SignoriniError
-        If there are fewer than two levels, or a column is missing.
+        If there are fewer than two levels, a column is missing, an element has one h twice, or an
+        h or an error is no number.
 
     Examples
     --------

@@ -9,6 +9,7 @@ from signorini.errors.norms import CONTACT, DOMAIN, RATED
 from signorini.exact import ExactSolution, with_coefficient
 from signorini.exceptions import SceneError
 from signorini.fem.data import BySubdomain
+from signorini.fem.problem import Problem
 from signorini.mesh.domain import longest_edge
 from signorini.solvers import Solution
 from signorini.solvers.stored import stored
@@ -58,6 +59,8 @@ def measure_of(
     """
     if isinstance(truth, Solution):
         return _reference_measure(truth, _checked(norms or DOMAIN, DOMAIN))
+    if isinstance(truth, Problem):
+        raise SceneError("truth: a Problem is not solved yet; give signorini.solve(...) of it")
     exact = read_exact_solution(truth)
     check_functions(exact, solution.problem.mesh)
     coefficient = None if solution.problem.data is None else solution.problem.data.coefficient

@@ -2,6 +2,7 @@
 
 import math
 from itertools import pairwise
+from numbers import Real
 
 from signorini.errors.norms import RATED, REFERENCE
 from signorini.exceptions import SignoriniError
@@ -209,8 +210,8 @@ def slopes(h, errors):
     Raises
     ------
     SignoriniError
-        If there are fewer than two levels, or an error is zero (log 0): the solution equals its
-        truth there.
+        If there are fewer than two levels, or one is there twice; or an error is zero (log 0): the
+        solution equals its truth there.
 
     Examples
     --------
@@ -221,7 +222,12 @@ def slopes(h, errors):
         raise SignoriniError(
             f"rates: a slope needs two levels, found {len(h)}; add one to levels or drop rates"
         )
+    _check_widths(h)
     for size, value in zip(h, errors, strict=True):
+        if not isinstance(value, Real):
+            raise SignoriniError(
+                f"rates: the error at h = {size:g} is {value!r}, no number; drop this level"
+            )
         if not (value > 0.0 and math.isfinite(value)):
             raise SignoriniError(
                 f"rates: the error at h = {size:g} is {value:g}, which has no logarithm; "
@@ -233,3 +239,16 @@ def slopes(h, errors):
     covariance = math.fsum((a - mean_x) * (b - mean_y) for a, b in zip(x, y, strict=True))
     variance = math.fsum((a - mean_x) ** 2 for a in x)
     return {"mean": math.fsum(steps) / len(steps), "fit": covariance / variance}
+
+
+def _check_widths(h):
+    """Refuse mesh sizes against which there is no slope."""
+    for k, size in enumerate(h):
+        if not (isinstance(size, Real) and 0.0 < size < math.inf):
+            raise SignoriniError(
+                f"rates: h = {size!r} is no mesh width; it must be a positive number"
+            )
+        if size in h[:k]:
+            raise SignoriniError(
+                f"rates: h = {size:g} is there twice for one element; list each level once"
+            )

@@ -1,6 +1,7 @@
 """Exact solutions that are functions of a program."""
 
 from dataclasses import dataclass
+from functools import wraps
 
 from signorini.exact.solution import ExactSolution
 from signorini.exceptions import SceneError
@@ -107,8 +108,12 @@ class Gradient:
         """Both components of one function, which is called once."""
         pair = []
 
+        @wraps(self.functions)  # messages are of the program's own
         def first(x, y):
-            pair[:] = self.functions(x, y)
+            values = self.functions(x, y)
+            if values is None:
+                return None
+            pair[:] = values
             ux, _ = pair
             return ux
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from signorini.exceptions import FormulaError
-from signorini.wording import cut
+from signorini.wording import cut, takes_two
 
 
 @dataclass(frozen=True)
@@ -90,13 +90,19 @@ class Function:
 
         try:
             with np.errstate(all="ignore"):
-                return np.asarray(self.function(x, y))
+                values = self.function(x, y)
+                array = np.asarray(values)
         except Exception as error:  # a function of a user raises anything
+            remedy = "write it with NumPy, np.where for if, or wrap it in np.vectorize"
+            if not takes_two(self.function):
+                remedy = "write a function of two arrays, lambda x, y: ..."
             raise FormulaError(
                 f"{self.field}: {self.text} fails for arrays x and y "
-                f"({type(error).__name__}: {cut(str(error))}); "
-                "write it with NumPy, np.where for if, or wrap it in np.vectorize"
+                f"({type(error).__name__}: {cut(str(error))}); {remedy}"
             ) from error
+        if values is None:
+            raise FormulaError(f"{self.field}: {self.text} returns None; is a return missing?")
+        return array
 
     def _check_finite(self, values, x, y):
         from signorini.formula.taylor import first_non_finite

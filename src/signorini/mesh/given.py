@@ -12,7 +12,7 @@ from signorini.mesh.check import check_triangulation
 from signorini.mesh.imported import named_mesh
 from signorini.mesh.labels import NamedMesh, with_sides
 from signorini.mesh.parse import arrays_of, read_meshio
-from signorini.wording import cut
+from signorini.wording import cut, takes_two
 
 
 def from_arrays(p, t, boundaries=None, subdomains=None):
@@ -212,12 +212,18 @@ def _chosen(field, function, points, what):
     """Whether a function is true, or positive, at each of some points, (k,)."""
     x, y = np.array(points)
     try:
-        chosen = np.broadcast_to(np.asarray(function(x, y)) > 0, x.shape)
+        values = function(x, y)
+        chosen = None if values is None else np.broadcast_to(np.asarray(values) > 0, x.shape)
     except Exception as error:  # a function of a user raises anything
+        remedy = "write it with NumPy"
+        if not takes_two(function):
+            remedy = "write a function of two arrays, lambda x, y: ..."
         raise MeshError(
             f"{field}: the function fails for arrays x and y "
-            f"({type(error).__name__}: {cut(str(error))}); write it with NumPy"
+            f"({type(error).__name__}: {cut(str(error))}); {remedy}"
         ) from None
+    if chosen is None:
+        raise MeshError(f"{field}: the function returns None; is a return missing?")
     if not chosen.any():
         raise MeshError(f"{field}: the function is true at no {what}; correct or drop it")
     return chosen

@@ -191,8 +191,20 @@ def test_its_results_verify_where_they_are_and_where_they_came_from(folder, caps
 def test_a_file_that_was_changed_is_refused(built):
     project, record = built
     project.write("results/a/table.csv", b"n\n2\n")
-    with pytest.raises(StorageError, match=r"results/a/table.csv: its SHA-256 is"):
+    said = "results/a/table.csv: changed since the build; restore it, or build again$"
+    with pytest.raises(StorageError, match=said):
         build_crate(project.folder, record, ABOUT)
+    (project / "results/a/table.csv").unlink()
+    with pytest.raises(StorageError, match=r"table.csv: in the record, but gone; restore it, or b"):
+        build_crate(project.folder, record, ABOUT)
+
+
+def test_a_changed_file_that_no_job_reads_need_not_be_built_from(built):
+    project, record = built
+    unread = record | {"inputs": record["inputs"] | {"NOTES.md": "0" * 64}}
+    project.write("NOTES.md", b"new\n")
+    with pytest.raises(StorageError, match=r"^NOTES.md: changed since .* if no job reads it, "):
+        build_crate(project.folder, unread, ABOUT)
 
 
 def test_a_crate_is_written_whole_or_not_at_all(built, monkeypatch, capsys):
@@ -227,6 +239,7 @@ def test_a_record_of_no_run_is_refused(built):
     [
         ("results", "results/crate", "is among the results"),
         ("results", "data.txt", "is there already"),
+        ("results", "data.txt/crate", "data.txt; choose a writable folder"),
         ("results/a", "crate", "the folder of results is results"),
     ],
 )

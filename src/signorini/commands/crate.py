@@ -5,6 +5,7 @@ example:
   signorini crate results -o build/crate
 """
 
+import os
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -42,6 +43,7 @@ def run(arguments):
         raise StorageError(f"{output}: is there already; name a new folder")
     if output.resolve().is_relative_to(results.resolve()):
         raise StorageError(f"{output}: is among the results; name a folder outside of {results}")
+    _check_writable(output)
     if find_spec("rocrate") is None:
         raise StorageError(
             "it needs rocrate, which is not installed: pip install 'signorini[crate]'"
@@ -53,6 +55,13 @@ def run(arguments):
     _write(build_crate(Path(), record, about, arguments.agent), output)
     counts = f"{len(record['inputs'])} inputs, {len(record['products'])} results"
     return Outcome(f"{output}: {counts}, {len(record['jobs'])} jobs")
+
+
+def _check_writable(output):
+    """Refuse a place where nothing can be made, before the files are read."""
+    there = next(folder for folder in output.absolute().parents if folder.exists())
+    if not (there.is_dir() and os.access(there, os.W_OK | os.X_OK)):
+        raise StorageError(f"{output}: cannot write in {there}; choose a writable folder")
 
 
 def _record(folder):

@@ -127,8 +127,11 @@ def _name_agent(crate, actions, name, address):
 def _files(crate, project, record, workflow):
     """Path -> entity of every file, once each is known to be that of the record."""
     products = {path: told["sha256"] for path, told in record["products"].items()}
+    used = products.keys() | {path for job in record["jobs"] for path in job.get("reads", ())}
     files = {}
     for path, digest in (record["inputs"] | products).items():
+        check_inside(path, RECORD)
+        _check_unchanged(project, path, digest, path in used)
         facts = _facts(project, path, digest)
         if path == WORKFLOW:
             workflow.properties().update(facts)
@@ -159,14 +162,22 @@ def _add_readme(crate, record):
     crate.add_file(StringIO(text), README, properties=about)
 
 
+def _check_unchanged(project, path, digest, is_used):
+    """Refuse a file that is not that of the record, in which no job is said to read the library."""
+    if not os.path.lexists(project / path):
+        raise StorageError(f"{path}: in the record, but gone; {_remedy(is_used)}")
+    if digest_of(project / path) != digest:
+        raise StorageError(f"{path}: changed since the build; {_remedy(is_used)}")
+
+
+def _remedy(is_used):
+    built = "restore it, or build again"
+    recorded = "; if no job reads it, `signorini provenance` records it as it is"
+    return built if is_used else built + recorded
+
+
 def _facts(project, path, digest):
-    """What is said of a file, once it is known to be the one of the record."""
-    check_inside(path, RECORD)
-    found = digest_of(project / path)
-    if found != digest:
-        told = f"its SHA-256 is {found[:12]}..., not {cut(str(digest))[:12]}..."
-        remedy = "restore it, or build again; `signorini provenance` if no job reads it"
-        raise StorageError(f"{path}: {told}; {remedy}")
+    """What is said of a file, whose digest is known."""
     return {
         "name": path,
         "sha256": digest,

@@ -86,7 +86,14 @@ def test_what_no_part_names_takes_the_rest_and_named_parts_are_inherited():
         (lambda: from_arrays(P, T, {"a": [0, 1]}), ["boundaries.a", "(2,)", "(2, k)"]),
         (lambda: from_arrays(P, T, {"a": [[0], [9]]}), ["boundaries.a", "vertex 9", "0 to 3"]),
         (lambda: from_arrays(P, T, {"a": lambda x, y: y > 5}), ["boundaries.a", "midpoint"]),
-        (lambda: from_arrays(P, T, {"a": lambda x: x}), ["boundaries.a", "TypeError", "NumPy"]),
+        (
+            lambda: from_arrays(P, T, {"a": lambda x: x}),
+            ["boundaries.a", "TypeError", "lambda x, y: ..."],
+        ),
+        (
+            lambda: from_arrays(P, T, {"a": lambda x, y: x[9]}),
+            ["boundaries.a", "IndexError", "NumPy"],
+        ),
         (lambda: from_arrays(P, T, None, {"a": [7]}), ["subdomains.a", "triangle 7", "0 to 1"]),
         (lambda: from_arrays(P, T, None, {"a": "x"}), ["subdomains.a", "shape ()"]),
         (lambda: from_skfem(skfem.MeshQuad()), ["mesh", "MeshQuad1", "to_meshtri()"]),

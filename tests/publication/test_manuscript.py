@@ -25,6 +25,12 @@ def test_uses_are_found_with_their_lines(project):
     )
 
 
+def test_braces_within_a_use_and_a_definition_are_closed(project):
+    body = "\\renewcommand\\result[2][]{#2} \\result{l2, \\norm{a}, 4}\\result{l2, CR,\n% {\n4}"
+    _, path = project.article(body)
+    assert [use.key for use in read_manuscript(path).uses] == ["l2, CR, 4"]
+
+
 def test_a_key_that_a_macro_completes_is_open_up_to_there():
     assert Use("", "l2, CR, #1").stem == "l2, CR"
     assert Use("", r"\norm, CR").stem == ""

@@ -44,6 +44,30 @@ def test_a_wrong_use_is_told_with_its_line(project, body):
     assert said in told
 
 
+@pytest.mark.parametrize("count", [2, 5, 7])
+def test_all_wrong_uses_are_told_or_the_first_of_many(project, count):
+    scene, path = project.article("\n".join(rf"\result{{l{k}, RC, 4}}" for k in range(count)))
+    first, *others = refusal(check_publication, scene).split("; also ")
+    told = [first, *others][: min(count, 5)]
+    for k, complaint in enumerate(told):
+        assert complaint.startswith(rf"{path}:{5 + k}: \result{{l{k}, RC, 4}}: ")
+    assert others[4:] == (["2 more"] if count == 7 else [])
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "It is \\result{l2, CR, 4 and small.\n\nMore.",
+        "\\result[digits=2]{l2, CR, 4 \\}",
+        "\\result{l2, CR, 4 and \\result{h1, CR, 4}",
+    ],
+)
+def test_a_use_that_is_not_closed_is_told_with_its_line(project, body):
+    with pytest.raises(SignoriniError, match=r"is not closed; add a brace$") as caught:
+        check_publication(project.article(f"\n{body}")[0])
+    assert str(caught.value).startswith("article/mine.tex:6: \\result")
+
+
 def test_right_uses_pass(project):
     scene, _ = project.article(
         r"\result{l2, CR, 4} \result[decimals=2]{slope, h1_semi, P1, fit} "

@@ -50,20 +50,20 @@ WIDE = r"\noindent\hbox to 2\textwidth{\vrule\hfil\vrule}"
 COMPLAINTS = {
     "undefined command": (
         "One.\n\n\\mistake{a}",
-        ":7: LaTeX: Undefined control sequence. \\mistake; ",
+        ":7: LaTeX: Undefined control sequence. \\mistake; mend it there",
     ),
     "left open": (
         r"\begin{table}",
-        ":6: LaTeX: LaTeX Error: \\begin{table} on input line 5 ended by",
+        ":6: LaTeX: \\begin{table} on input line 5 ended by",
     ),
     "missing file": (
         r"\input{nothing}",
-        ":5: LaTeX: LaTeX Error: File `nothing.tex' not found.; mend",
+        ":5: LaTeX: File `nothing.tex' not found; mend it there, or install what is missing",
     ),
-    "mathematics": ("a_b", ":5: LaTeX: Missing $ inserted.; mend it there, or"),
+    "mathematics": ("a_b", ":5: LaTeX: Missing $ inserted; mend it there"),
     "undefined reference": (
         "\n\\ref{x}",
-        ":6: LaTeX: LaTeX Warning: Reference `x' on page 1 undefi",
+        ":6: LaTeX: Reference `x' on page 1 undefined on input line 6; mend it there",
     ),
     "overfull": (
         "\n\n" + WIDE,
@@ -78,6 +78,7 @@ def test_a_mistake_is_told_with_its_line(project, article, mistake):
     with pytest.raises(SignoriniError) as caught:
         run(article(body))
     assert str(caught.value).startswith(f"article/mine.tex{said}")
+    assert ("install" in str(caught.value)) == (mistake == "missing file")
     assert "\n" not in str(caught.value)
     assert not (project.folder / "mine.pdf").exists()
 

@@ -12,6 +12,8 @@ from signorini.publication.notation import read_form
 from signorini.publication.published import read_published
 from signorini.wording import listed
 
+_TOLD = 5  # mistakes of a manuscript, in one line
+
 
 def check_publication(scene):
     """Check the files that a scene's publication names, if it has one.
@@ -49,8 +51,7 @@ def _check_computed(path, published, scene):
 
 
 def _check_manuscript(manuscript, scene, declared):
-    for use in manuscript.uses:
-        _check_use(use, scene, declared)
+    _check_uses(manuscript.uses, scene, declared)
     made = made_files(scene.document)
     _check_own_files(manuscript, made)
     if manuscript.uses and MACROS not in {entry.found_in(made) for entry in manuscript.taken}:
@@ -63,17 +64,25 @@ def _check_manuscript(manuscript, scene, declared):
             _check_distributed(entry, [*made, *_studies(scene)])
 
 
-def _check_use(use, scene, declared):
+def _check_uses(uses, scene, declared):
+    """Refuse uses that are wrong, and tell all of them, or the first few of many."""
+    found = [complaint for use in uses if (complaint := _complaint(use, scene, declared))]
+    more = [f"{len(found) - _TOLD} more"] if len(found) > _TOLD else []
+    if found:
+        raise SceneError("; also ".join(found[:_TOLD] + more))
+
+
+def _complaint(use, scene, declared):
+    """What is wrong with a use, or None."""
     try:
         read_form(use.options)
     except ValueError as error:
-        raise SceneError(f"{use.place}: \\result[{use.options}]: {error}") from None
-    if not tables_of_use(use, declared):
-        remedy = nearest_key(use.key, declared)
-        raise SceneError(
-            f"{use.place}: \\result{{{use.key}}}: the scene {scene.name} has no such number; "
-            f"{remedy}"
-        )
+        return f"{use.place}: \\result[{use.options}]: {error}"
+    if tables_of_use(use, declared):
+        return None
+    remedy = nearest_key(use.key, declared)
+    told = f"the scene {scene.name} has no such number"
+    return f"{use.place}: \\result{{{use.key}}}: {told}; {remedy}"
 
 
 def _check_own_files(manuscript, made):

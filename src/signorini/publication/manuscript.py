@@ -16,6 +16,8 @@ MACROS = "macros.tex"
 _COMMENT = re.compile(r"(?<!\\)((?:\\\\)*)%.*")
 _VERBATIM = re.compile(r"\\begin\{(verbatim|lstlisting)\}.*?\\end\{\1\}", re.S)
 _RESULT = re.compile(r"\\result(?![A-Za-z])\s*(?:\[([^]]*)\]\s*)?\{([^{}]*)\}")
+_BEGUN = re.compile(r"\\result(?![A-Za-z])\s*(?:\[[^]]*\]\s*)?\{")
+_BRACE = re.compile(r"\\.|([{}])", re.S)  # what follows a backslash is none
 _TAKES = re.compile(
     r"\\(input|include|includegraphics|bibliography|addbibresource|bibliographystyle|usepackage"
     r"|RequirePackage|documentclass|lstinputlisting|verbatiminput)(?![A-Za-z])\*?\s*"
@@ -168,7 +170,7 @@ def read_manuscript(path):
     Raises
     ------
     SceneError, StorageError
-        Naming the file that cannot be read.
+        Naming the file that cannot be read, or the line of a number whose brace is not closed.
     """
     path = Path(path)
     folder, files, uses, taken, others = path.parent, [path], [], [], []
@@ -206,8 +208,26 @@ def _place(path, text, found):
 
 
 def _uses(path, text):
+    _refuse_unclosed(path, text)
     for found in _RESULT.finditer(text):
         yield Use(_place(path, text, found), tidy(found[2]), (found[1] or "").strip())
+
+
+def _refuse_unclosed(path, text):
+    """Refuse a number whose brace is never closed: LaTeX tells the end of the file alone."""
+    for found in _BEGUN.finditer(text):
+        if not _is_closed(text, found.end()):
+            raise SceneError(f"{_place(path, text, found)}: {found[0]} is not closed; add a brace")
+
+
+def _is_closed(text, start):
+    """Whether the brace before a place is closed."""
+    depth = 1
+    for found in _BRACE.finditer(text, start):
+        depth += {"{": 1, "}": -1}.get(found[1], 0)
+        if depth == 0:
+            return True
+    return False
 
 
 def _takes(path, text, pictures):

@@ -19,6 +19,8 @@ _WARNING = re.compile(
 )
 _OVERFULL = re.compile(r"^.*Overfull .*$", re.M)
 _LINE = re.compile(r"(?:on input line|at lines?) (\d+)(?:--\d+)?\.?")
+_NAME = re.compile(r"^(?:LaTeX(?: Font)?|Package \w+|Class \w+) (?:Error|Warning): ")
+_MISSING = re.compile(r"not (?:found|available|loadable)|can't find file")
 _PAGES = re.compile(r"Output written on .*?\((\d+) pages?")
 _ENVIRONMENT = {
     # A fixed date makes the same input the same PDF.
@@ -173,11 +175,14 @@ def _culprit(log, start, said):
 
 def _told(path, line, said):
     place = f"{path}:{line}" if line else f"{path}"
-    remedy = _REMEDIES.get(said.split()[0], "mend it there, or install what is missing")
-    return f"{place}: LaTeX: {cut(said, 200)}; {remedy}"
+    said = _NAME.sub("", said).rstrip(" .")
+    return f"{place}: LaTeX: {cut(said, 200)}; {_remedy(said)}"
 
 
-_REMEDIES = {"Overfull": "shorten the line or the table there, or allow it with \\hfuzz"}
+def _remedy(said):
+    if said.startswith("Overfull"):
+        return "shorten the line or the table there, or allow it with \\hfuzz"
+    return "mend it there" + (", or install what is missing" if _MISSING.search(said) else "")
 
 
 def _last_words(result, source):

@@ -20,7 +20,7 @@ from signorini.scene.values_check import check_values
 def add_arguments(parser):
     """Declare the command's arguments."""
     parser.add_argument("scene", metavar="SCENE", help="a scene file, config/scenes/NAME.yaml")
-    add_output(parser, "the validated scene, .json", required=False)
+    add_output(parser, "the validated scene, .json", required=False, ending=".json")
 
 
 def run(arguments):

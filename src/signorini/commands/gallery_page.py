@@ -29,7 +29,7 @@ def add_arguments(parser):
         default=Path("results"),
         help="where scenes were built, each in a folder of its name; default: results",
     )
-    add_output(parser, "the page, .html")
+    add_output(parser, "the page, .html", ending=".html")
 
 
 def run(arguments):

@@ -1,6 +1,7 @@
 """Arguments that commands share: a scene, a domain, and where to write."""
 
 import os
+from argparse import ArgumentTypeError
 from functools import cache
 from pathlib import Path
 
@@ -17,11 +18,27 @@ def add_scene(parser):
     )
 
 
-def add_output(parser, what, required=True):
-    """Add the option ``--output``."""
+def add_output(parser, what, required=True, ending=""):
+    """Add the option ``--output``; a file that ends otherwise than told is refused."""
     parser.add_argument(
-        "-o", "--output", metavar="FILE", required=required, help=f"where to write {what}"
+        "-o",
+        "--output",
+        metavar="FILE",
+        required=required,
+        type=_ended_in(ending),
+        help=f"where to write {what}",
     )
+
+
+def _ended_in(ending):
+    """The type of an argument that is a path with this ending."""
+
+    def path(text):
+        if not text.lower().endswith(ending):
+            raise ArgumentTypeError(f"{text!r}: end it in {ending}")
+        return text
+
+    return path
 
 
 def check_there(path):

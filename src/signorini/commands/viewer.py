@@ -39,7 +39,7 @@ def add_arguments(parser):
         action="store_true",
         help="compute guaranteed bounds here, as `certificate: true` in the scene does",
     )
-    add_output(parser, "the page, .html")
+    add_output(parser, "the page, .html", ending=".html")
 
 
 def run(arguments):

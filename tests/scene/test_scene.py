@@ -107,11 +107,29 @@ def test_a_name_that_results_uses_otherwise_is_refused(name):
         check_name(name)
 
 
-@pytest.mark.parametrize("name", ["missing.yaml", "folder.yaml"])
-def test_a_file_that_cannot_be_read_is_named(tmp_path, name):
+MISNAMED = {
+    "missing.yaml": "there is no such file; `signorini scenes` lists the scenes",
+    "folder.yaml": "is a folder; `signorini scenes` lists the scenes",
+    "notes.md": "no scene; name a .yaml or .json file",
+    "field.npz": "no scene; name a .yaml or .json file",
+}
+
+
+@pytest.mark.parametrize("name", MISNAMED)
+def test_what_is_no_file_of_a_scene_is_named(tmp_path, name):
     (tmp_path / "folder.yaml").mkdir()
-    with pytest.raises(SceneError, match=rf"{name}: cannot be read"):
+    (tmp_path / "notes.md").write_text("# Notes\n", encoding="utf-8")
+    (tmp_path / "field.npz").write_bytes(b"PK\xff")
+    with pytest.raises(SceneError, match=rf"{name}: {MISNAMED[name]}"):
         load_scene(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["smooth", "paper"])
+def test_a_bare_name_gets_its_path_from_python_too(monkeypatch, name):
+    """There is a folder paper, too."""
+    monkeypatch.chdir(ROOT)
+    with pytest.raises(SceneError, match=rf"^{name}: .*; did you mean config/scenes/{name}\.yaml"):
+        load_scene(name)
 
 
 def test_validation_leaves_the_document_as_it_was():

@@ -45,6 +45,32 @@ LONG = {
 }
 
 
+# text: (line, what is told of it)
+KEYS = {
+    "a: 1\nlevels\nb: 2\n": (2, "could not find expected ':'; write 'key: value', with a space"),
+    "a: 1\nlevels [2, 4]\nb: 2\n": (2, "could not find expected ':'; write 'key: value', "),
+    "a:\n  kind x\n  b: 2\n": (
+        3,
+        "mapping values are not allowed here; mend this line or the one ",
+    ),
+    "a: b: c\n": (1, "mapping values are not allowed here; mend this line"),
+}
+
+
+@pytest.mark.parametrize("text", KEYS)
+def test_a_key_without_its_colon_is_told_with_its_own_line_or_the_one_after(load, text):
+    line, told = KEYS[text]
+    with pytest.raises(SceneError, match=rf"line {line}, column \d: {re.escape(told)}"):
+        load(text, load_yaml)
+
+
+def test_a_list_as_label_is_told_the_labels(load):
+    document = BASES["polygon"].replace("top: dirichlet", "top: [dirichlet, 1]")
+    expected = "expected one of dirichlet, contact, neumann, or a formula where the key is one"
+    with pytest.raises(SceneError, match=rf"boundary.top: \[.*\] is not valid; {expected}"):
+        load(document)
+
+
 @pytest.mark.parametrize("value", LONG)
 @pytest.mark.parametrize("base", BASES)
 def test_a_message_is_short_whatever_is_given(load, base, value):

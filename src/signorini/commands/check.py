@@ -10,7 +10,7 @@ example:
 """
 
 from signorini.commands.catalogue import Outcome
-from signorini.commands.inputs import add_output, check_there
+from signorini.commands.inputs import add_output
 from signorini.publication.check import check_publication
 from signorini.scene.read import check_points, read_scene
 from signorini.scene.validated import write_validated
@@ -25,7 +25,6 @@ def add_arguments(parser):
 
 def run(arguments):
     """Validate, and write the result where asked to."""
-    check_there(arguments.scene)
     scene = read_scene(arguments.scene)
     scene.check()
     check_values(scene)

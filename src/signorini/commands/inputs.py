@@ -41,21 +41,6 @@ def _ended_in(ending):
     return path
 
 
-def check_there(path):
-    """Refuse the path of a scene where there is nothing; a scene's bare name gets its path.
-
-    Raises
-    ------
-    SceneError
-    """
-    if os.path.exists(path):
-        return
-    meant = Path("config/scenes", f"{path}.yaml")
-    listed = "`signorini scenes` lists the scenes"
-    remedy = f"did you mean {meant}?" if os.path.exists(meant) else listed
-    raise SceneError(f"{path}: there is no such file; {remedy}")
-
-
 def make_folder(path):
     """Make a folder for results before any work is done, so that no work is lost.
 
@@ -101,7 +86,6 @@ def scene_of(path):
         from signorini.scene.validated import read_validated
 
         return read_validated(path)
-    check_there(path)
     from signorini.scene.read import load_scene
 
     return load_scene(path)

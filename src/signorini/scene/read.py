@@ -17,6 +17,7 @@ from signorini.scene.sweep import check_sweep, sweep_points, with_values
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 # What is built by default where no errors are measured.
 _WITHOUT_ERRORS = {"none": (), "certificate": ("table", "figures")}
+_ENDINGS = ("", ".yaml", ".yml", ".json")
 _RESERVED = ("meshes", "studies", "quick")
 
 
@@ -82,6 +83,7 @@ def read_scene(path):
     'paper'
     """
     path = Path(path)
+    check_file(path)
     check_name(path.stem)
     return _validated_scene(load_yaml(path), path.stem, path)
 
@@ -220,6 +222,33 @@ def _validated_scene(written, name, path):
         scene = Scene(name, document, path, note, kept)
         check_critical_points(document, scene.problem_statement.exact)
     return scene
+
+
+def check_file(path):
+    """Refuse the path of a scene where there is none; a scene's bare name gets its path.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    SceneError
+
+    Examples
+    --------
+    >>> check_file(Path("smooth"))
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: smooth: there is no such file; did you mean config/scenes/...
+    """
+    if not os.path.exists(path) or path.is_dir():
+        wrong = "is a folder" if path.is_dir() else "there is no such file"
+        meant = Path("config/scenes", f"{path}.yaml")
+        listed = "`signorini scenes` lists the scenes"
+        remedy = f"did you mean {meant}?" if os.path.exists(meant) else listed
+        raise SceneError(f"{path}: {wrong}; {remedy}")
+    if path.suffix not in _ENDINGS:
+        raise SceneError(f"{path}: no scene; name a .yaml or .json file")
 
 
 def check_name(name):

@@ -190,7 +190,8 @@ def _entries(count):
 
 
 def _alternatives(schema):
-    return " or ".join(map(_alternative, schema["oneOf"]))
+    """What a schema says is expected (keyword x-expected), or what its alternatives are."""
+    return schema.get("x-expected") or " or ".join(map(_alternative, schema["oneOf"]))
 
 
 def _alternative(part):

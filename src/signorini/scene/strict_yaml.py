@@ -134,8 +134,17 @@ def _read(path):
 
 def _explain(error):
     """Place, problem and remedy, which own errors have already."""
-    mark = error.problem_mark
+    of_key = error.context == "while scanning a simple key"
+    mark = error.context_mark if of_key else error.problem_mark
     place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
     problem = cut(error.problem or "malformed YAML", 200)
-    remedy = "" if "; " in problem else "; mend this line"
+    remedy = "" if "; " in problem else _remedy(error, of_key)
     return f"{place}{problem}{remedy}"
+
+
+def _remedy(error, of_key):
+    """Which line to mend: YAML often sees only in the next one what is missing."""
+    if of_key:
+        return "; write 'key: value', with a space"
+    before = error.problem_mark is not None and error.problem_mark.line > 0
+    return "; mend this line or the one before" if before else "; mend this line"

@@ -26,7 +26,7 @@ def solved(n: int) -> signorini.Solution:
 def told(solution: signorini.Solution) -> tuple[float, str, int]:
     """Some of it, by its types."""
     resultant: float = solution.resultant
-    errors: dict[str, object] = solution.errors(solved(8), norms=["l2"])
+    errors: dict[str, object] = solution.errors(solved(16), norms=["l2"])
     return resultant, solution.status, len(errors) + solution.at([[0.5], [0.5]]).size
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from signorini.api.arguments import described
 from signorini.api.frame import as_frame
-from signorini.api.measures import as_stored, measure_of
+from signorini.api.measures import as_stored, measure_of, warn_of_reference
 from signorini.api.scene_study import scene_rows
 from signorini.api.solve import solve
 from signorini.errors.measure import row
@@ -37,7 +37,8 @@ def convergence(
     levels : sequence of int, optional
         With a function: increasing, whole numbers.
     truth : optional
-        With a function: what `Solution.errors` takes, an exact solution or a finer one.
+        With a function: what `Solution.errors` takes, an exact solution or a finer one, at least
+        four times as fine as the finest level, or there is a warning.
     norms : sequence of str, optional
         See `Solution.errors`; by default those of the scene.
 
@@ -112,12 +113,16 @@ def _rows(
 ) -> list[dict[str, Any]]:
     """The rows of a program's problems; one measure serves all, as a reference is read once."""
     rows: list[dict[str, Any]] = []
+    problems: list[Problem] = []
     measure: Callable[..., dict[str, Any]] | None = None
     for n in levels:
         for problem in _several(problem_of_level(n)):
             solution = solve(_of_level(problem, n))
             measure = measure or measure_of(truth, solution, norms)
+            problems.append(solution.problem)
             rows.append(row(as_stored(solution), lambda _, s=solution, m=measure: m(s)))
+    if problems:
+        warn_of_reference(truth, problems, stacklevel=3)
     first = {entry["element"]: k for k, entry in reversed(list(enumerate(rows)))}
     return sorted(rows, key=lambda entry: first[entry["element"]])
 

@@ -1,11 +1,17 @@
 """What the errors of a program's solutions are measured by: an exact solution, or a finer one."""
 
+import math
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 from signorini.api.exact import check_functions, read_exact_solution
+from signorini.api.same_problem import check_same_problem
 from signorini.errors.measure import exact_measure, reference_measure
 from signorini.errors.norms import CONTACT, DOMAIN, RATED
+from signorini.errors.rates import reference_note
 from signorini.exact import ExactSolution, with_coefficient
 from signorini.exceptions import SceneError
 from signorini.fem.data import BySubdomain
@@ -90,10 +96,57 @@ def _reference_measure(truth: Solution, norms: Sequence[str]) -> Callable[..., d
     measure = reference_measure(problem.mesh, as_stored(truth), norms, weight=problem.coefficient)
 
     def errors_of(solution: Solution) -> dict[str, Any]:
-        problem = solution.problem
-        return measure(problem.mesh, as_stored(solution), problem.coefficient, solution is truth)
+        own = solution.problem
+        check_same_problem(problem, own)
+        same = solution is truth or _is_same(problem, own)
+        return measure(own.mesh, as_stored(solution), own.coefficient, same)
 
     return errors_of
+
+
+def _is_same(theirs: Problem, ours: Problem) -> bool:
+    """Whether the reference's problem is solved once more."""
+    return (
+        theirs.element == ours.element
+        and np.array_equal(theirs.b, ours.b)
+        and bool(theirs.mesh.same_as(ours.mesh))
+    )
+
+
+def warn_of_reference(truth: Any, problems: Sequence[Problem], stacklevel: int) -> None:
+    """Warn of a reference that is hardly finer than what is held against it.
+
+    Parameters
+    ----------
+    truth : object
+        Anything but a solution is not looked at.
+    problems : sequence of Problem
+        Of what is held against it; its mesh is refined from theirs.
+    stacklevel : int
+        As of `warnings.warn`, from here.
+
+    Examples
+    --------
+    Four times as fine is fine enough:
+
+    >>> import signorini
+    >>> meshes = signorini.rectangle(4), signorini.rectangle(16)
+    >>> problems = [signorini.problem(mesh, f=1, dirichlet="top") for mesh in meshes]
+    >>> warn_of_reference(signorini.solve(problems[1]), problems[:1], 1)
+    """
+    if not isinstance(truth, Solution):
+        return
+    finest = max(problems, key=lambda problem: problem.mesh.number_of_triangles)
+    triangles = [problem.mesh.number_of_triangles for problem in (truth.problem, finest)]
+    n, own = finest.n or 1, truth.problem.element
+    times = math.isqrt(triangles[0] // triangles[1])
+    section = {"kind": "reference", "element": own, "n": times * n}
+    elements = {problem.element for problem in problems}
+    if times == 1 and not any(_is_same(truth.problem, problem) for problem in problems):
+        elements -= {own}  # by another quadrature, say: their distance is no error of a level
+    note = reference_note(section, [n], sorted(elements, reverse=True))
+    if elements and note:
+        warnings.warn(f"truth: {note}", stacklevel=stacklevel + 1)
 
 
 def _all_norms(exact: ExactSolution, solution: Solution, coefficient: Any) -> tuple[str, ...]:

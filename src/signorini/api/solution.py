@@ -157,12 +157,13 @@ class Solution(SolverSolution):
         ------
         SceneError, FormulaError, MeshError
             If the exact solution is none, or has a value that is not finite, a norm is unknown, or
-            the other solution's mesh is no refinement of this one's.
+            the other solution's mesh is no refinement of this one's, or it solves another problem.
 
         Notes
         -----
         Against an exact solution the difference itself is integrated, by a quadrature that is
-        refined at singular points; against a finer solution all is exact.
+        refined at singular points; against a finer solution all is exact. One that is not at least
+        four times as fine is warned of, as it has an error of its own.
 
         Examples
         --------
@@ -173,9 +174,11 @@ class Solution(SolverSolution):
         >>> round(signorini.solve(problem).errors(exact)["l2"], 4)
         0.0016
         """
-        from signorini.api.measures import measure_of
+        from signorini.api.measures import measure_of, warn_of_reference
 
-        return measure_of(exact, self, norms)(self)
+        found = measure_of(exact, self, norms)(self)
+        warn_of_reference(exact, [self.problem], stacklevel=2)
+        return found
 
     def contact_line(self) -> "DataFrame":
         """What happens along the contact part: a row for each contact dof, in order.

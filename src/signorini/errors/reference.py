@@ -181,11 +181,7 @@ class ReferenceErrors:
             finer.append(level)
             level = level.coarser()
             if level is None:
-                raise MeshError(
-                    f"mesh: {mesh.number_of_triangles} triangles do not nest in the reference's "
-                    f"{self.mesh.number_of_triangles}; "
-                    "the reference's n must be a power of two times n"
-                )
+                raise _do_not_nest(mesh, self.mesh)
         return finer
 
     @cached_property
@@ -265,3 +261,14 @@ def _total(values):
 def _squared_constant(area, values):
     density = (values * values).sum(axis=0)
     return float(area @ density if np.ndim(area) else area * density.sum())
+
+
+def _do_not_nest(mesh, reference):
+    """The error of a mesh that a reference's was not refined from."""
+    counts = mesh.number_of_triangles, reference.number_of_triangles
+    remedy = "the reference's n must be a power of two times n"
+    if counts[0] > counts[1]:
+        remedy = "the reference is the coarser one: exchange the two"
+    return MeshError(
+        f"mesh: {counts[0]} triangles do not nest in the reference's {counts[1]}; {remedy}"
+    )

@@ -93,6 +93,7 @@ def test_against_a_finer_solution():
             lambda: signorini.convergence(both, [4], both(8)[0]),
             "truth: a Problem is not solved yet; give signorini.solve(...) of it",
         ),
+        (lambda: signorini.rates(table().iloc[:0]), "errors: the table has no row; a slope needs"),
         (lambda: signorini.rates(table(h=[0.5, 0.5])), "h = 0.5 is there twice for one element"),
         (lambda: signorini.rates(table(h=[0.5, 0.0])), "h = 0.0 is no mesh width"),
         (lambda: signorini.rates(table(h=["0.5", "0.25"])), "h = '0.5' is no mesh width"),

@@ -6,7 +6,9 @@ from dataclasses import replace
 import pytest
 
 import signorini
+from signorini.api.same_problem import check_same_problem
 from signorini.exceptions import SignoriniError
+from signorini.formula import Formula
 
 CORNERS = [(0, 0), (1, 0), (1, 1), (0, 1)]
 NAMES = ["bottom", "right", "top", "left"]
@@ -75,6 +77,16 @@ def test_numbers_of_subdomains_are_compared():
     with pytest.raises(SignoriniError, match=r"its coefficient\.high is another, 3 where the sol"):
         own.errors(solved(mesh.refined(2), coefficient={"low": 1, "high": 3}))
     assert own.errors(solved(mesh.refined(2), coefficient={"low": 1, "high": 2}))["l2"] > 0.0
+
+
+def test_a_pole_of_a_datum_where_nothing_is_evaluated_is_no_difference():
+    """At a midpoint of the coarse mesh, which is none of the points that P1 takes."""
+    mesh, obstacle = MESHES["rectangle"], "-1 - 1e-9/(x - 1/8)**2"
+    own, fine = solved(mesh), solved(mesh.refined(2))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        peaked = replace(own.problem.data, obstacle=Formula(obstacle, "obstacle"))
+        check_same_problem(replace(fine.problem, data=peaked), replace(own.problem, data=peaked))
 
 
 def test_a_problem_by_hand_has_no_data_that_could_be_compared():

@@ -179,6 +179,8 @@ def rates(errors: "DataFrame") -> "DataFrame":
                 f"errors: no column {column!r} in {described(errors)}; "
                 "give the table of signorini.convergence"
             )
+    if not len(errors):
+        raise SignoriniError("errors: the table has no row; a slope needs two levels")
     known = errors.astype(object).where(errors.notna(), None)
     known["floor"] = errors["floor"].fillna("")
     return as_frame(rate_rows(known.to_dict("records")))

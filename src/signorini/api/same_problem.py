@@ -116,6 +116,8 @@ def _is_known(datum: Any, known: Any) -> bool:
 
 
 def _compare(field: str, points: Floats, theirs: Floats, ours: Floats) -> None:
+    finite = np.isfinite(theirs) & np.isfinite(ours)  # a pole in one of them is told elsewhere
+    theirs, ours = (np.where(finite, values, 0.0) for values in (theirs, ours))
     size = np.maximum(np.abs(theirs), np.abs(ours)).max(initial=0.0)
     off = np.abs(theirs - ours) > _SAME * size
     if off.any():

@@ -250,7 +250,7 @@ def asked(mesh=MESH, *arguments, **changes):
         (lambda: asked(contact="left", obstacle=1), "obstacle 1 lies above dirichlet 0"),
         (lambda: asked(neumann="left", contact="bottom"), "neumann: the side right has no"),
         (lambda: asked(SQUARE, neumann="left"), "facets of mesh have no label"),
-        (lambda: asked(coefficient=0), "coefficient: 0 is 0 at"),
+        (lambda: asked(coefficient=0), "coefficient: 0 is not valid; it must be from 1e-100"),
         (lambda: asked(coefficient={"a": 1}), "coefficient.a: the mesh has no such subdomain"),
         (lambda: asked(coefficient={"a": "1"}), "coefficient.a: '1' (str) is no number"),
         (lambda: asked(coefficient={"a": -1}), "coefficient.a: -1.0 is not valid"),

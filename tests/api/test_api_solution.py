@@ -172,6 +172,7 @@ def test_it_is_drawn_tabulated_and_written(tmp_path):
         (lambda: solved().errors((lambda x, y: 1 / x, lambda x, y: (x, x))), "exact"),
         (lambda: solved().errors(solved(mesh=signorini.rectangle(6))), "do not nest"),
         (lambda: solved(contact=None).plot_contact(), "contact: the problem has no contact part"),
+        (lambda: solved().plot(5), "path: 5 is no path; give the name of a .pdf or .png file"),
         (lambda: solved().plot("u.jpg"), "path: 'u.jpg' is no figure; end it in .pdf or .png"),
         (lambda: solved().to_vtu("u.txt"), "path: 'u.txt' is no VTU file; end it in .vtu"),
         (lambda: signorini.kkt_residual(solved().problem, np.zeros(3)), "u: shape (3,) is not"),

@@ -99,3 +99,11 @@ def test_a_scene_has_no_data_by_part(datum):
     }
     with pytest.raises(SceneError, match=rf"data\.{datum}: "):
         signorini.Scene.from_dict(document)
+
+
+def test_sides_that_have_names_are_not_listed_by_number_as_well():
+    """Their numbers are names, too, that a condition may use."""
+    with pytest.raises(SceneError) as caught:
+        signorini.problem(POLYGON, f=-1, contact="nowhere", dirichlet=NAMES[0])
+    assert str(caught.value).endswith(f"known: {', '.join(NAMES)}")
+    assert signorini.problem(POLYGON, f=-1, contact="side-1", dirichlet="side-0").contact.any()

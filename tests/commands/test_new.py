@@ -26,7 +26,10 @@ def test_an_article_comes_with_its_scene_and_asks_for_what_there_is(folder):
     scene = load_scene("config/scenes/mine.yaml")
     assert scene.document["publication"]["manuscript"] == "paper/mine.tex"
     check_publication(scene)
-    assert "config/scenes/mine.yaml" in (folder / "paper/mine.tex").read_text()
+    article = (folder / "paper/mine.tex").read_text(encoding="utf-8")
+    assert "config/scenes/mine.yaml" in article
+    before, _ = article.split("Find $u$ with ")
+    assert "yours to change when you change the scene" in before.splitlines()[-1]
 
 
 @pytest.mark.parametrize("there", ["config/scenes/mine.yaml", "paper/mine.tex"])

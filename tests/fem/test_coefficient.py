@@ -135,6 +135,11 @@ REFUSED = {
         SceneError,
         r"data.coefficient: \[1, 2\] is not valid; expected a number or text or a section",
     ),
+    "number": (
+        "-1",
+        FormulaError,
+        "data.coefficient: -1 is not valid; it must be from 1e-100 to 1e",
+    ),
     "formula": (
         "x - 1",
         FormulaError,

@@ -10,6 +10,7 @@ from signorini.fem.by_part import ByPart
 from signorini.fem.data import BySubdomain
 from signorini.fem.function import Function
 from signorini.formula import Formula
+from signorini.mesh.boundary import offered
 from signorini.wording import cut, nearest
 
 _DATUM = "give a number, a formula in x and y as text, or a function of x and y"
@@ -147,12 +148,12 @@ def read_names(value: Names | None, field: str, known: Iterable[str]) -> tuple[s
     if not isinstance(names, Iterable) or not all(isinstance(name, str) for name in names):
         raise SceneError(
             f"{field}: {described(value)} names no part of the boundary; "
-            f"give a name or a list of names, of {', '.join(known) or 'none'}"
+            f"give a name or a list of names, of {', '.join(offered(known)) or 'none'}"
         )
     for name in names:
         if name not in known:
             raise SceneError(
-                f"{field}: the boundary has no part {name[:60]!r}; {nearest(name, known)}"
+                f"{field}: the boundary has no part {name[:60]!r}; {nearest(name, offered(known))}"
             )
     return tuple(names)
 

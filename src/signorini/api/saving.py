@@ -25,7 +25,7 @@ def saved(figure: "Figure", path: str | Path | None) -> "Figure":
     Raises
     ------
     SceneError
-        If the path ends otherwise.
+        If it is no path, or ends otherwise.
 
     Examples
     --------
@@ -36,6 +36,8 @@ def saved(figure: "Figure", path: str | Path | None) -> "Figure":
     if path is not None:
         from signorini.figures.style import FORMATS, save_figure
 
+        if not isinstance(path, str | Path):
+            raise SceneError(f"path: {path!r:.60} is no path; give the name of a .pdf or .png file")
         if Path(path).suffix not in FORMATS:
             raise SceneError(
                 f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"

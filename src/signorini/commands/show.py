@@ -1,4 +1,4 @@
-"""Say what is in a result file: a solution, mesh or field (.npz), or a table (.csv).
+"""Say what is in result files: a solution, mesh or field (.npz), or a table (.csv).
 
 example:
   signorini show results/paper/solutions/CR/n64.npz
@@ -17,21 +17,34 @@ _ROWS = 20  # of a table that are shown
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    parser.add_argument("file", metavar="FILE", type=Path, help="an .npz or .csv file")
+    parser.add_argument("files", metavar="FILE", nargs="+", type=Path, help=".npz or .csv files")
 
 
 def run(arguments):
-    """Read the file, its digest included, and describe it.
+    """Read the files, their digests included, and describe each.
 
     Raises
     ------
     StorageError
-        If it is not a whole result file.
+        If one is not a whole result file.
     """
-    reader = {".npz": _arrays, ".csv": _table}.get(arguments.file.suffix)
+    shown = {str(path): _shown(path) for path in arguments.files}
+    if len(shown) == 1:
+        return next(iter(shown.values()))
+    texts = [_headed(path, each.text) for path, each in shown.items()]
+    return Outcome("\n\n".join(texts), {path: each.data for path, each in shown.items()})
+
+
+def _headed(path, text):
+    """What is told of one file of several; that of arrays begins with its name."""
+    return text if text.startswith(f"{path}:") else f"{path}:\n{text}"
+
+
+def _shown(path):
+    reader = {".npz": _arrays, ".csv": _table}.get(path.suffix)
     if reader is None:
-        raise StorageError(f"{arguments.file}: neither .npz nor .csv; name a result file")
-    return reader(arguments.file)
+        raise StorageError(f"{path}: neither .npz nor .csv; name a result file")
+    return reader(path)
 
 
 def _arrays(path):

@@ -58,9 +58,10 @@ def _at_centroids(mesh, formula):
     wrong = (values < low) | (values > high)
     if wrong.any():
         k = int(np.argmax(wrong))
+        place = f"{values[k]:g} at ({x[k]:.6g}, {y[k]:.6g})"
+        value = "not valid" if np.all(values == values[0]) else place
         raise FormulaError(
-            f"{formula.field}: {formula.text} is {values[k]:g} at ({x[k]:.6g}, {y[k]:.6g}); "
-            f"it must be from {low:g} to {high:g}"
+            f"{formula.field}: {formula.text} is {value}; it must be from {low:g} to {high:g}"
         )
     return values
 

@@ -1,5 +1,7 @@
 """The section ``boundary`` of a scene: what holds on the parts of the boundary."""
 
+import re
+
 LABELS = ("dirichlet", "contact", "neumann")
 PART = "part "  # before the name of a part, where it stands beside labels
 SIDES = ("bottom", "right", "top", "left")  # the parts of a rectangle's boundary
@@ -46,3 +48,32 @@ def labels_of(boundary):
     {'contact'}
     """
     return set(boundary) if by_formula(boundary) else set(boundary.values())
+
+
+_NUMBERED = re.compile(r"side-[0-9]+")
+
+
+def offered(parts):
+    """The parts that messages name: sides of a polygon by number only where they have no names.
+
+    Parameters
+    ----------
+    parts : iterable of str
+        All that are known, in the order in which a polygon has them.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> offered(["side-0", "floor", "side-1", "wall", "hole-0"])
+    ['floor', 'wall', 'hole-0']
+    >>> offered(["side-0", "side-1", "hole-0"])
+    ['side-0', 'side-1', 'hole-0']
+    """
+    parts = list(parts)
+    second = parts[1] if len(parts) > 1 and parts[0] == "side-0" else "side-1"
+    if _NUMBERED.fullmatch(second) or second.startswith("hole-"):
+        return parts
+    return [part for part in parts if not _NUMBERED.fullmatch(part)]

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import part_key
+from signorini.mesh.boundary import offered, part_key
 from signorini.mesh.facets import pair_keys
 from signorini.mesh.geometry import doubled_areas, point_text
 from signorini.wording import nearest
@@ -88,7 +88,7 @@ def with_curved_sides(mesh, curves):
         if name not in mesh.parts:
             raise MeshError(
                 f"domain.boundary_shape.{name}: {mesh.source} has no such part; "
-                f"{nearest(name, mesh.parts)}"
+                f"{nearest(name, offered(mesh.parts))}"
             )
     ends = {part_key(name): mesh.parts[name] for name in curves}
     check_ends(mesh.p, mesh.facets[:, mesh.boundary], curves, ends)

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import LABELS, SIDES, part_key
+from signorini.mesh.boundary import LABELS, SIDES, offered, part_key
 from signorini.mesh.facets import pair_keys, unique_facets
 from signorini.mesh.geometry import point_text
 from signorini.mesh.triangulation import Triangulation
@@ -250,7 +250,7 @@ def _known_parts(mesh, name):
         return mesh.note
     near = [part for part in (f"name={name}", f"number={name}") if part in mesh.parts]
     near = near or difflib.get_close_matches(name[:200], mesh.parts, n=1)
-    known = f"its parts: {listed(mesh.parts) or 'none'}"
+    known = f"its parts: {listed(offered(mesh.parts)) or 'none'}"
     if near:
         return f"{known}; did you mean {' or '.join(near)}?"
     if name in LABELS:

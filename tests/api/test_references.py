@@ -62,7 +62,7 @@ def test_a_reference_of_another_problem_is_refused(mesh, changed):
         {"coefficient": "2/2"},
         {"load_quadrature": "centroid"},
     ],
-    ids=str,
+    ids=["formula", "function", "parts", "side", "obstacle", "coefficient", "quadrature"],
 )
 def test_a_problem_that_is_said_otherwise_is_the_same(mesh, said):
     found = solved(mesh).errors(solved(mesh.refined(2), **said), ["l2"])["l2"]

@@ -42,10 +42,10 @@ ELSEWHERE = {
         "solvers/test_solve.py::test_renumbering_changes_nothing",
         "solvers/test_solve.py::test_powers_of_two_pass_through_unrounded",
         "errors/test_errors.py::test_powers_of_two_pass_through_unrounded",
-        "solvers/test_refusals.py::test_subnormal_data_are_warned_of",
+        "solvers/test_refused_problems.py::test_subnormal_data_are_warned_of",
     ],
     "7 nonunique, unbounded, incompatible, no contact": [
-        "solvers/test_refusals.py::test_problems_without_a_solution_are_named",
+        "solvers/test_refused_problems.py::test_problems_without_a_solution_are_named",
         "solvers/test_solve.py::test_a_body_without_dirichlet_part_rests_on_the_obstacle",
         "fem/test_problem.py::test_an_obstacle_above_the_dirichlet_data_at_a_shared_corner_is_refused",
         "fem/test_problem.py::test_an_obstacle_that_meets_the_dirichlet_data_at_a_shared_corner_is_accepted",

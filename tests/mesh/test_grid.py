@@ -124,7 +124,7 @@ def test_children_halve_their_parent(nested):
     parent = nested.coarser()
     corners = np.stack([parent.p[:, v] for v in parent.t])
     for axis in range(2):
-        family = nested.vertex_children(nested.p[axis][nested.t])
+        family = nested.children(nested.p[axis][nested.t])
         for k, i in np.ndindex(3, 3):
             middle = 0.5 * (corners[i, axis] + corners[k, axis])
             np.testing.assert_allclose(family[k, i], middle, rtol=0, atol=1e-14)
@@ -134,10 +134,10 @@ def test_children_halve_their_parent(nested):
             np.testing.assert_allclose(family[3, i], middle, rtol=0, atol=1e-14)
 
 
-def test_from_vertex_children_undoes_vertex_children(nested):
+def test_from_children_undoes_children(nested):
     values = np.random.default_rng(0).random((3, nested.number_of_triangles))
     np.testing.assert_array_equal(
-        nested.from_vertex_children(nested.vertex_children(values)), values
+        nested.from_children(nested.children(values)), values
     )
 
 

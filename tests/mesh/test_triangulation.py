@@ -107,12 +107,12 @@ def test_coarser_is_the_mesh_it_was_refined_from(mesh):
 
 @pytest.mark.parametrize("times", [1, 2])
 def test_children_halve_their_parent(mesh, times):
-    """As `Grid.vertex_children` documents them; true of an affine function if it is of x and y."""
+    """As `Grid.children` documents them; true of an affine function if it is of x and y."""
     for _ in range(times):
         parent, mesh = mesh, mesh.refined()
     for axis in range(2):
         corners, values = parent.p[axis][parent.t], mesh.p[axis][mesh.t]
-        family = mesh.vertex_children(values)
+        family = mesh.children(values)
         for k, i in np.ndindex(3, 3):
             middle = 0.5 * (corners[i] + corners[k])
             np.testing.assert_allclose(family[k, i], middle, rtol=0, atol=1e-14)
@@ -135,10 +135,10 @@ def test_children_keep_the_rows_of_values_on_triangles(mesh, rows):
     np.testing.assert_allclose(fine.children(centroids).mean(axis=0), expected, rtol=0, atol=1e-14)
 
 
-def test_from_vertex_children_undoes_vertex_children(mesh):
+def test_from_children_undoes_children(mesh):
     fine = mesh.refined()
     values = np.random.default_rng(0).random((3, fine.number_of_triangles))
-    np.testing.assert_array_equal(fine.from_vertex_children(fine.vertex_children(values)), values)
+    np.testing.assert_array_equal(fine.from_children(fine.children(values)), values)
 
 
 def test_the_gradient_of_an_affine_function_is_constant(mesh):

@@ -1,7 +1,7 @@
 """Piecewise affine functions on nested meshes: to the coarser mesh and back.
 
 A piecewise affine function, not necessarily continuous, is an array (3, nt) of its values at the
-vertices of each triangle. The children of a triangle are listed as `Grid.vertex_children` lists
+vertices of each triangle. The children of a triangle are listed as `Grid.children` lists
 them.
 """
 
@@ -41,7 +41,7 @@ def prolong(mesh, values):
     >>> prolong(mesh, mesh.coarser().corner_values(mesh.coarser().p[0])).shape
     (3, 8)
     """
-    return mesh.from_vertex_children(np.stack([P @ values for P in PROLONG]))
+    return mesh.from_children(np.stack([P @ values for P in PROLONG]))
 
 
 def project(mesh, values):
@@ -67,7 +67,7 @@ def project(mesh, values):
     >>> projection.shape, bool(abs(rest) < 1e-15)
     ((3, 2), True)
     """
-    family = mesh.vertex_children(values)
+    family = mesh.children(values)
     projection = sum(P @ child for P, child in zip(PROJECT, family, strict=True))
     for P, child in zip(PROLONG, family, strict=True):
         child -= P @ projection

@@ -65,7 +65,7 @@ class Bisected(Triangulation):
             "this mesh is locally refined: use an exact truth or a certificate"
         )
 
-    vertex_children = from_vertex_children = children
+    from_children = children
 
 
 def bisectable(mesh):

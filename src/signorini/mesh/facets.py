@@ -4,9 +4,18 @@ Sorts are by counting, so that the cost is proportional to the number of facets 
 order.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 _FEW = 2**16  # pairs up to which a general sort takes less time than to load SciPy
+
+
+class Triangles(NamedTuple):
+    """Vertices and facets, both (3, k), of k triangles of a mesh."""
+
+    t: np.ndarray
+    t2f: np.ndarray
 
 
 def unique_facets(t, number_of_vertices):

@@ -7,23 +7,16 @@ freedom means the same on ``grid.skfem`` (tests hold the two together). The modu
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from signorini.mesh import grid_nesting
+from signorini.mesh import grid_nesting, grid_sides
 from signorini.mesh.boundary import PART, SIDES
+from signorini.mesh.facets import Triangles
 from signorini.mesh.grid_edges import EdgeLayout
 from signorini.mesh.lattice import Lattice
 
 _CELLS_AT_ONCE = 2**15
-
-
-class Triangles(NamedTuple):
-    """Vertices and facets, both (3, k), of k triangles of a mesh."""
-
-    t: np.ndarray
-    t2f: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -61,10 +54,11 @@ class Grid(Lattice):
     @property
     def number_of_facets(self):
         """Number of edges."""
-        return self.ny * self._edges.row_length + self.nx
+        return self.edges.count
 
     @cached_property
-    def _edges(self):
+    def edges(self):
+        """Where horizontal, vertical and diagonal edges stand among the facets, an `EdgeLayout`."""
         return EdgeLayout(self.nx, self.ny, self.diagonal)
 
     def row_chunks(self):
@@ -94,7 +88,7 @@ class Grid(Lattice):
         >>> [part.shape for part in grid.split_edges(np.arange(9.0))]
         [(2, 2), (1, 3), (1, 2)]
         """
-        return self._edges.split(u, first, last)
+        return self.edges.split(u, first, last)
 
     def join_edges(self, horizontal, vertical, diagonal):
         """Undo `split_edges`.
@@ -116,7 +110,7 @@ class Grid(Lattice):
         >>> np.array_equal(grid.join_edges(*grid.split_edges(u)), u)
         True
         """
-        return self._edges.join(horizontal, vertical, diagonal)
+        return self.edges.join(horizontal, vertical, diagonal)
 
     def add_edges(self, u, first, horizontal, vertical, diagonal):
         """Add values at the edges of some rows of cells to a vector over the facets, in place.
@@ -129,7 +123,7 @@ class Grid(Lattice):
         horizontal, vertical, diagonal : ndarray
             Shapes (m + 1, nx), (m, nx + 1) and (m, nx).
         """
-        self._edges.add(u, first, (horizontal, vertical, diagonal))
+        self.edges.add(u, first, (horizontal, vertical, diagonal))
 
     @property
     def facets(self):
@@ -155,28 +149,12 @@ class Grid(Lattice):
         array([[0, 1],
                [1, 2]])
         """
-        row, position = np.divmod(facets, self._edges.row_length)
-        column, family = self._edges.columns_and_families[:, position]
-        # Beyond the last row are the top side's horizontal edges, one after the other.
-        on_top = row >= self.ny
-        column, family = np.where(on_top, position, column), np.where(on_top, 0, family)
-        up = self.nx + 1
-        falling = self.diagonal == "falling"
-        start = row * up + column + np.where(family == 2, 1 if falling else 0, 0)
-        step = np.array([1, up, up - 1 if falling else up + 1])
-        return np.stack([start, start + step[family]])
+        return self.edges.ends(facets)
 
     @property
     def t2f(self):
         """Facets of each triangle, shape (3, nt), in scikit-fem's order (01, 12, 02)."""
-        h, v, d = self.split_edges(np.arange(self.number_of_facets, dtype=np.int32))
-        below, above, left, right = h[:-1], h[1:], v[:, :-1], v[:, 1:]
-        if self.diagonal == "rising":
-            first, second = (right, d, below), (left, d, above)
-        else:
-            first, second = (below, d, left), (above, d, right)
-        pairs = zip(first, second, strict=True)
-        return np.stack([np.concatenate([a.ravel(), b.ravel()]) for a, b in pairs])
+        return self.edges.of_triangles()
 
     def triangles(self, numbers):
         """Vertices and facets of triangles given by their numbers, as `Triangles`."""
@@ -184,15 +162,7 @@ class Grid(Lattice):
         j, i = np.divmod(cell, self.nx)
         offsets = np.array(self.corners, dtype=np.int32)[half].transpose(1, 2, 0)
         t = (j + offsets[:, 1]) * (self.nx + 1) + i + offsets[:, 0]
-        h, v, d = self._edges.positions
-        length = self._edges.row_length
-        # A first half has the lower horizontal edge of its cell, a second half the upper one.
-        row = j + half
-        horizontal = row * length + np.where(row < self.ny, h[i], i)
-        falling = self.diagonal == "falling"
-        vertical = j * length + v[i + (half if falling else 1 - half)]
-        legs = (horizontal, vertical) if falling else (vertical, horizontal)
-        return Triangles(t, np.stack([legs[0], j * length + d[i], legs[1]]))
+        return Triangles(t, self.edges.of_halves(half, i, j))
 
     def triangles_at(self, label):
         """The triangles with a facet on the sides that carry `label`, each once, as `Triangles`.
@@ -205,18 +175,8 @@ class Grid(Lattice):
                [1, 2],
                [3, 4]], dtype=int32)
         """
-        along = np.arange(self.nx, dtype=np.int32)
-        up = np.arange(self.ny, dtype=np.int32) * self.nx
-        second = self.nx * self.ny  # the number of the first of the second halves
-        left, right = (0, second) if self.diagonal == "falling" else (second, 0)
-        at_side = {
-            "bottom": along,
-            "right": right + up + self.nx - 1,
-            "top": second + up[-1] + along,
-            "left": left + up,
-        }
-        numbers = np.concatenate([at_side[side] for side in self.sides(label)])
-        return self.triangles(np.unique(numbers))
+        numbers = [grid_sides.triangles(self, side) for side in self.sides(label)]
+        return self.triangles(np.unique(np.concatenate(numbers)))
 
     def side_vertices(self, side):
         """Vertex numbers along a side, by increasing coordinate.
@@ -227,9 +187,7 @@ class Grid(Lattice):
         >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).side_vertices("top")
         array([3, 4, 5], dtype=int32)
         """
-        along = np.arange(self.nx + 1, dtype=np.int32)
-        up = np.arange(self.ny + 1, dtype=np.int32) * (self.nx + 1)
-        return {"bottom": along, "top": up[-1] + along, "left": up, "right": up + self.nx}[side]
+        return grid_sides.vertices(self, side)
 
     def side_facets(self, side):
         """Facet numbers along a side, by increasing coordinate.
@@ -240,14 +198,7 @@ class Grid(Lattice):
         >>> Grid(2, 1, (0.0, 0.0), (2.0, 1.0), "falling", labels).side_facets("bottom")
         array([0, 2], dtype=int32)
         """
-        horizontal, vertical, _ = self._edges.positions
-        rows = np.arange(self.ny + 1, dtype=np.int32) * self._edges.row_length
-        return {
-            "bottom": horizontal,
-            "top": rows[-1] + np.arange(self.nx, dtype=np.int32),
-            "left": rows[:-1] + vertical[0],
-            "right": rows[:-1] + vertical[-1],
-        }[side]
+        return grid_sides.facets(self, side)
 
     def sides(self, label):
         """The sides that carry `label`, a tuple of names; the side itself for its `part_key`."""
@@ -321,33 +272,19 @@ class Grid(Lattice):
         Parameters
         ----------
         values : ndarray, shape (m, nt)
-            Numbers of this grid's triangles, m each.
+            m numbers for each triangle of this grid.
 
         Returns
         -------
         ndarray, shape (4, m, nt / 4)
-            Children 0 to 2 hold the parent's vertices, child 3 is the middle one.
+            Children 0 to 2 hold the parent's vertices, child 3 is the middle one. Local vertex i of
+            child k is the midpoint of the parent's vertices i and k; of child 3, that of the two
+            others than i.
         """
         return grid_nesting.children(self, values)
 
-    def vertex_children(self, values):
-        """Values at the vertices of the four children of every triangle of `coarser()`.
-
-        Parameters
-        ----------
-        values : ndarray, shape (3, nt)
-            Values at the vertices of this grid's triangles.
-
-        Returns
-        -------
-        ndarray, shape (4, 3, nt / 4)
-            Local vertex i of child k is the midpoint of the parent's vertices i and k; of child 3,
-            that of the two others than i.
-        """
-        return grid_nesting.children(self, values)
-
-    def from_vertex_children(self, family):
-        """Undo `vertex_children`.
+    def from_children(self, family):
+        """Undo `children` of values at the vertices of triangles.
 
         Parameters
         ----------

@@ -46,6 +46,17 @@ class EdgeLayout:
         """
         return 3 * self.nx + 1
 
+    @property
+    def count(self):
+        """Number of edges.
+
+        Examples
+        --------
+        >>> EdgeLayout(1, 1, "falling").count
+        5
+        """
+        return self.ny * self.row_length + self.nx
+
     @cached_property
     def _slices(self):
         """For each family pairs (slice of a row of edges, slice of the family's own row).
@@ -154,8 +165,7 @@ class EdgeLayout:
         >>> bool(np.all(layout.join(*layout.split(u, 0, 3)) == u))
         True
         """
-        count = self.ny * self.row_length + self.nx
-        u = np.empty(count, dtype=horizontal.dtype)
+        u = np.empty(self.count, dtype=horizontal.dtype)
         rows, top = self._rows_and_top(u)
         top[:] = horizontal[-1]
         edges = (horizontal[:-1], vertical, diagonal)
@@ -183,3 +193,89 @@ class EdgeLayout:
                 part[:, in_row] += values[: len(part), in_family]
         if first + len(diagonal) == self.ny:
             top += horizontal[-1]
+
+    def ends(self, edges):
+        """End vertices of edges by number, the smaller first; see `Grid.facet_ends`.
+
+        Parameters
+        ----------
+        edges : ndarray of int, shape (k,)
+
+        Returns
+        -------
+        ndarray of int, shape (2, k)
+
+        Examples
+        --------
+        The last of the five edges of one cell is the upper one:
+
+        >>> EdgeLayout(1, 1, "falling").ends(np.arange(5))
+        array([[0, 0, 1, 1, 2],
+               [1, 2, 2, 3, 3]])
+        """
+        row, position = np.divmod(edges, self.row_length)
+        column, family = self.columns_and_families[:, position]
+        # Beyond the last row are the top side's horizontal edges, one after the other.
+        on_top = row >= self.ny
+        column, family = np.where(on_top, position, column), np.where(on_top, 0, family)
+        up = self.nx + 1
+        falling = self.diagonal == "falling"
+        start = row * up + column + np.where(family == 2, 1 if falling else 0, 0)
+        step = np.array([1, up, up - 1 if falling else up + 1])
+        return np.stack([start, start + step[family]])
+
+    def of_triangles(self):
+        """The edges of all triangles; see `Grid.t2f`.
+
+        Returns
+        -------
+        ndarray of int32, shape (3, 2 nx ny)
+
+        Examples
+        --------
+        The two halves of a cell share the diagonal, which is the second of either:
+
+        >>> EdgeLayout(1, 1, "falling").of_triangles()
+        array([[0, 4],
+               [2, 2],
+               [1, 3]], dtype=int32)
+        """
+        h, v, d = self.split(np.arange(self.count, dtype=np.int32), 0, None)
+        below, above, left, right = h[:-1], h[1:], v[:, :-1], v[:, 1:]
+        if self.diagonal == "rising":
+            first, second = (right, d, below), (left, d, above)
+        else:
+            first, second = (below, d, left), (above, d, right)
+        pairs = zip(first, second, strict=True)
+        return np.stack([np.concatenate([a.ravel(), b.ravel()]) for a, b in pairs])
+
+    def of_halves(self, half, column, row):
+        """The edges of some triangles, without those of all.
+
+        Parameters
+        ----------
+        half : ndarray of int, shape (k,)
+            Of its cell, which half a triangle is: 0 or 1.
+        column, row : ndarray of int, shape (k,)
+            Of the cell.
+
+        Returns
+        -------
+        ndarray of int, shape (3, k)
+            In the order of `of_triangles`.
+
+        Examples
+        --------
+        >>> EdgeLayout(1, 1, "falling").of_halves(*np.array([[1], [0], [0]])).ravel()
+        array([4, 2, 3])
+        """
+        h, v, d = self.positions
+        length = self.row_length
+        # A first half has the lower horizontal edge of its cell, a second half the upper one.
+        edge_row = row + half
+        on_edge_row = np.where(edge_row < self.ny, h[column], column)
+        horizontal = edge_row * length + on_edge_row
+        falling = self.diagonal == "falling"
+        vertical = row * length + v[column + (half if falling else 1 - half)]
+        legs = (horizontal, vertical) if falling else (vertical, horizontal)
+        return np.stack([legs[0], row * length + d[column], legs[1]])

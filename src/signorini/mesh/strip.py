@@ -85,10 +85,10 @@ class Strip(Grid):
         >>> bool(np.all(ends == grid.facets[:, strip.facets_of_whole()]))
         True
         """
-        offset = self.first * self._edges.row_length
+        offset = self.first * self.edges.row_length
         numbers = offset + np.arange(self.number_of_facets)
         if self._ends("top") < self.whole.ny:
-            numbers[-self.nx :] = numbers[-self.nx] + self._edges.positions[0]
+            numbers[-self.nx :] = numbers[-self.nx] + self.edges.positions[0]
         return numbers
 
 

@@ -15,8 +15,7 @@ from signorini.mesh import refinement
 from signorini.mesh.affine import Affine
 from signorini.mesh.boundary import LABELS, PART
 from signorini.mesh.curved import followed
-from signorini.mesh.facets import pair_keys, unique_facets
-from signorini.mesh.grid import Triangles
+from signorini.mesh.facets import Triangles, pair_keys, unique_facets
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,12 +268,8 @@ class Triangulation(Affine):
         """Values on the four children of every triangle of `coarser()`; see `Grid.children`."""
         return refinement.children(values)
 
-    def vertex_children(self, values):
-        """Values at the vertices of the children; see `Grid.vertex_children`."""
-        return refinement.children(values)
-
-    def from_vertex_children(self, family):
-        """Undo `vertex_children`."""
+    def from_children(self, family):
+        """Undo `children` of values at the vertices of triangles."""
         return refinement.from_children(family)
 
 

@@ -105,7 +105,7 @@ def sums_on_coarser(mesh, values, most_triangles):
     """
     for finer in _levels_down(mesh, most_triangles)[:-1]:
         corners = np.tile(values, (3, 1))
-        values = finer.vertex_children(corners)[:, 0].sum(axis=0)
+        values = finer.children(corners)[:, 0].sum(axis=0)
     return values
 
 
@@ -123,7 +123,7 @@ def _levels_down(mesh, most_triangles):
 def _coarsened(mesh, values, most_triangles):
     *finer, shown = _levels_down(mesh, most_triangles)
     for level in finer:
-        children = level.vertex_children(values)
+        children = level.children(values)
         values = np.stack([children[k, k] for k in range(3)])  # child k keeps its parent's corner k
     return shown, values
 

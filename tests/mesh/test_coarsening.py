@@ -50,7 +50,7 @@ def test_a_part_or_subdomain_of_the_finer_mesh_alone_keeps_it():
     fine = from_skfem(ROOT.refined(2))
     half = {"half": fine.parts["left"][:, :3]}
     assert coarsest(replace(fine, parts=half))[1] == 0
-    assert coarsest(replace(fine, regions={"some": np.arange(5)}))[1] == 0
+    assert coarsest(replace(fine, subdomains={"some": np.arange(5)}))[1] == 0
 
 
 def test_a_mesh_that_was_not_refined_is_its_own_root():

@@ -29,7 +29,7 @@ def test_a_mesh_of_meshio_is_the_mesh_of_its_file():
     assert np.array_equal(ours.t, theirs.t)
     assert ours.parts.keys() == theirs.parts.keys()
     assert all(np.array_equal(keys(ours.parts[k]), keys(theirs.parts[k])) for k in ours.parts)
-    assert all(np.array_equal(ours.regions[k], theirs.regions[k]) for k in theirs.regions)
+    assert all(np.array_equal(ours.subdomains[k], theirs.subdomains[k]) for k in theirs.subdomains)
 
 
 def test_scikit_fem_keeps_its_numbers_and_names():
@@ -44,7 +44,7 @@ def test_scikit_fem_keeps_its_numbers_and_names():
     assert np.array_equal(
         keys(ours.parts["inner"]), keys(theirs.facets[:, theirs.boundaries["inner"]])
     )
-    assert np.array_equal(ours.regions["right"], np.sort(theirs.subdomains["right"]))
+    assert np.array_equal(ours.subdomains["right"], np.sort(theirs.subdomains["right"]))
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_parts_and_subdomains_by_function_number_or_mask():
     by_mask = from_arrays(P, T, {"floor": [[0], [1]]}, {"low": [True, False]})
     for mesh in (by_function, by_number, by_mask):
         assert keys(mesh.parts["floor"]).tolist() == keys([[0], [1]]).tolist()
-        assert mesh.regions["low"].tolist() == [0]
+        assert mesh.subdomains["low"].tolist() == [0]
 
 
 def test_what_no_part_names_takes_the_rest_and_named_parts_are_inherited():

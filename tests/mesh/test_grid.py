@@ -136,9 +136,7 @@ def test_children_halve_their_parent(nested):
 
 def test_from_children_undoes_children(nested):
     values = np.random.default_rng(0).random((3, nested.number_of_triangles))
-    np.testing.assert_array_equal(
-        nested.from_children(nested.children(values)), values
-    )
+    np.testing.assert_array_equal(nested.from_children(nested.children(values)), values)
 
 
 def test_the_gradient_of_an_affine_function_is_constant(mesh):

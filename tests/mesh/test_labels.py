@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from signorini.exceptions import FormulaError, MeshError
 from signorini.formula import Formula
 from signorini.mesh.boundary import LABELS
-from signorini.mesh.labels import NamedMesh, label_boundary, labelled, with_sides
+from signorini.mesh.labels import label_boundary, labelled
+from signorini.mesh.named_mesh import NamedMesh, with_sides
 from signorini.mesh.patterns import alternating, criss_cross
 
 MESH = criss_cross(8, 8, (0, 0), (1, 1))

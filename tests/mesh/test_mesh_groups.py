@@ -33,7 +33,7 @@ def counts(parts):
 def test_a_group_has_its_name_and_its_number_and_a_name_may_serve_lines_and_triangles(write):
     mesh = import_mesh(write(text()))
     assert counts(mesh.parts) == {"bottom": 1, "1": 1, "lower right": 2, "2": 2, "body": 2, "3": 2}
-    assert counts(mesh.regions) == {"body": 2, "4": 2, "5": 1}
+    assert counts(mesh.subdomains) == {"body": 2, "4": 2, "5": 1}
 
 
 @pytest.mark.parametrize("version", ["22", "41"])
@@ -85,7 +85,7 @@ def test_a_triangle_in_two_groups_of_a_file_in_2_2_is_one_triangle(write):
     """It was called a duplicate element."""
     mesh = import_mesh(write(msh22(OVERLAPPING)))
     assert mesh.t.shape == (3, 2)
-    assert {name: members.tolist() for name, members in mesh.regions.items()} == {
+    assert {name: members.tolist() for name, members in mesh.subdomains.items()} == {
         "4": [0, 1],
         "5": [1],
     }
@@ -139,7 +139,7 @@ def test_cells_in_no_group_are_part_of_the_domain(write):
     """As Gmsh writes them in 4.1 with Mesh.SaveAll = 1."""
     mesh = import_mesh(write(text(ENTITIES.replace("1 1 0 1 4 3 1 2 5", "1 1 0 0 3 1 2 5"))))
     assert mesh.t.shape == (3, 2)
-    assert counts(mesh.regions) == {"body": 1, "4": 1, "5": 1}
+    assert counts(mesh.subdomains) == {"body": 1, "4": 1, "5": 1}
 
 
 @pytest.mark.parametrize("names", ["", NAMES], ids=["no names", "names"])
@@ -208,7 +208,7 @@ def test_groups_of_a_med_file_have_names():
     assert {name: count for name, count in counts(mesh.parts).items() if name[0] != "-"} == {
         "bottom": 8, "top": 8, "east": 4, "west": 4,
     }  # fmt: skip
-    assert {name: count for name, count in counts(mesh.regions).items() if name[0] != "-"} == {
+    assert {name: count for name, count in counts(mesh.subdomains).items() if name[0] != "-"} == {
         "L": 42,
         "R": 44,
     }

@@ -30,7 +30,7 @@ def here(monkeypatch):
 def test_the_gasket_is_read_labelled_and_refined():
     gasket = import_mesh(GASKET)
     assert set(gasket.parts) == {"foundation", "free", "clamped", "1", "2", "3"}
-    assert gasket.regions["plate"].size == gasket.t.shape[1]
+    assert gasket.subdomains["plate"].size == gasket.t.shape[1]
     assert minimum_angle(gasket) > 30
     assert GASKET.stat().st_size < 60_000
     mesh = read_mesh(GASKET, CLAMPED)
@@ -73,7 +73,7 @@ def test_formats_give_the_same_mesh_and_groups(write, name):
     assert np.array_equal(found.t, SQUARE.t)
     for side, number in NUMBERS.items():
         assert np.array_equal(found.parts[str(number)], SQUARE.parts[side])
-    assert found.regions["9"].size == SQUARE.t.shape[1]
+    assert found.subdomains["9"].size == SQUARE.t.shape[1]
 
 
 def test_gmsh_4_groups_by_name_and_number(write):
@@ -82,7 +82,7 @@ def test_gmsh_4_groups_by_name_and_number(write):
     assert {name: ends.shape[1] for name, ends in mesh.parts.items()} == {
         "base": 1, "rest": 3, "wall": 1, "1": 1, "2": 3, "3": 1,
     }  # fmt: skip
-    assert list(mesh.regions) == ["plate", "4"]
+    assert list(mesh.subdomains) == ["plate", "4"]
     assert read_mesh(write(GMSH41), {"base": "contact", "rest": "dirichlet"}).area.sum() == 1
 
 

@@ -50,7 +50,7 @@ class Mesh:
     @property
     def subdomains(self) -> tuple[str, ...]:
         """The names of the subdomains."""
-        return () if self._is_rectangle else tuple(self.domain["mesh"].regions)
+        return () if self._is_rectangle else tuple(self.domain["mesh"].subdomains)
 
     @property
     def h(self) -> float:
@@ -206,8 +206,8 @@ class Mesh:
         """
         mesh = self._triangulation
         names = {name: mesh.boundary_facets(part_key(name)) for name in self.boundaries}
-        regions = {name: mesh.subdomains[name] for name in self.subdomains}
-        return mesh.skfem.with_boundaries(names).with_subdomains(regions)
+        subdomains = {name: mesh.subdomains[name] for name in self.subdomains}
+        return mesh.skfem.with_boundaries(names).with_subdomains(subdomains)
 
     def __repr__(self) -> str:
         parts = ", ".join(self.boundaries)

@@ -16,7 +16,7 @@ from signorini.mesh.boundary_trace import find_boundary_trace
 from signorini.mesh.curved import true_places
 from signorini.mesh.domain import Rectangle
 from signorini.mesh.grid import Grid
-from signorini.mesh.labels import NamedMesh
+from signorini.mesh.named_mesh import NamedMesh
 from signorini.mesh.patterns import perturbed
 
 FEWEST = 2**11  # triangles; a line across a square meets some 60 of them

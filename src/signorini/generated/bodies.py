@@ -6,7 +6,8 @@ import numpy as np
 
 from signorini.generated.statements import LABELS, by_side, grid
 from signorini.mesh.domain import Rectangle
-from signorini.mesh.labels import NamedMesh, labelled, with_sides
+from signorini.mesh.labels import labelled
+from signorini.mesh.named_mesh import NamedMesh, with_sides
 from signorini.mesh.patterns import criss_cross, perturbed
 
 # What holds on the bottom, right, top and left side.

@@ -17,7 +17,7 @@ from signorini.exact import derived_data, read_exact
 from signorini.formula import Formula
 from signorini.generated.bodies import FAMILIES, one_of, with_labels
 from signorini.mesh.geometry import cross
-from signorini.mesh.labels import NamedMesh, with_sides
+from signorini.mesh.named_mesh import NamedMesh, with_sides
 from signorini.scene.statement import ProblemStatement
 
 BODIES = ("right-angled", "rising", "criss-cross", "delaunay", "perturbed")

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from signorini.mesh.labels import NamedMesh, labelled
+from signorini.mesh.labels import labelled
+from signorini.mesh.named_mesh import NamedMesh
 from signorini.mesh.triangulation import LABELS
 
 

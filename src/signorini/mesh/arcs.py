@@ -2,6 +2,8 @@
 polygon is triangulated, so that its triangulation follows the curves from the start.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from signorini.exceptions import MeshError
@@ -47,7 +49,7 @@ def triangulate_curved(domain, size, curves):
         pieces.setdefault(names[owner], []).append(mesh.parts[f"side-{k}"])
     parts = {name: np.concatenate(ends, axis=1) for name, ends in pieces.items()}
     parts |= {f"hole-{k}": mesh.parts[f"hole-{k}"] for k in range(len(holes))}
-    return type(mesh)(mesh.p, mesh.t, parts, mesh.regions, mesh.source)
+    return replace(mesh, parts=parts)
 
 
 def _cut(loop, names, curves, size):

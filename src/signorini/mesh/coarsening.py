@@ -7,7 +7,7 @@ They do where it was refined by scikit-fem or by this library, both of which num
 import numpy as np
 
 from signorini.mesh.facets import pair_keys
-from signorini.mesh.labels import NamedMesh
+from signorini.mesh.named_mesh import NamedMesh
 
 
 def coarsest(mesh):
@@ -51,10 +51,10 @@ def _parent(mesh):
     if not (_has_midpoints(mesh, parent) and _has_children(mesh, parent)):
         return None
     parts = {name: _joined(mesh, parent, ends) for name, ends in mesh.parts.items()}
-    regions = {name: _gathered(mesh, cells) for name, cells in mesh.regions.items()}
-    if any(found is None for found in (*parts.values(), *regions.values())):
+    subdomains = {name: _gathered(mesh, cells) for name, cells in mesh.subdomains.items()}
+    if any(found is None for found in (*parts.values(), *subdomains.values())):
         return None
-    return NamedMesh(parent.p, t, parts, regions, mesh.source, mesh.note)
+    return NamedMesh(parent.p, t, parts, subdomains, mesh.source, mesh.note)
 
 
 def _corners(t):
@@ -79,7 +79,7 @@ def _has_midpoints(mesh, parent):
 
 def _has_children(mesh, parent):
     """Whether the triangles are the children of the parent's, in their order."""
-    ab, bc, ac = parent.p.shape[1] + parent.facets_of_triangles
+    ab, bc, ac = parent.p.shape[1] + parent.t2f
     a, b, c = parent.t
     corners = (a, ab, ac), (b, ab, bc), (c, ac, bc), (ab, bc, ac)
     expected = np.concatenate([np.stack(corner) for corner in corners], axis=1)
@@ -101,7 +101,7 @@ def _joined(mesh, parent, ends):
 
 
 def _gathered(mesh, cells):
-    """The parents of whose children a region consists; None if of others."""
+    """The parents of whose children a subdomain consists; None if of others."""
     inside = np.zeros(mesh.t.shape[1], dtype=bool)
     inside[cells] = True
     children = inside.reshape(4, -1)

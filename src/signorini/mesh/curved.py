@@ -4,8 +4,6 @@ Only vertices on the boundary move, so that cells beside a curve change a little
 all. The levels of a curved domain are not nested; by their numbers they are refinements still.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from signorini.exceptions import MeshError
@@ -92,9 +90,7 @@ def with_curved_sides(mesh, curves):
             )
     ends = {part_key(name): mesh.parts[name] for name in curves}
     check_ends(mesh.p, mesh.facets[:, mesh.boundary], curves, ends)
-    moved = replace(mesh, p=followed(mesh.p, mesh.t, curves, ends))
-    moved.__dict__["_facets"] = mesh._facets  # which are found once: triangles are the same
-    return moved
+    return mesh.with_vertices(followed(mesh.p, mesh.t, curves, ends))
 
 
 def check_ends(p, boundary, curves, ends):

@@ -10,7 +10,7 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_triangulation
 from signorini.mesh.imported import named_mesh
-from signorini.mesh.labels import NamedMesh, with_sides
+from signorini.mesh.named_mesh import NamedMesh, with_sides
 from signorini.mesh.parse import arrays_of, read_meshio
 from signorini.wording import cut, takes_two
 
@@ -35,7 +35,7 @@ def from_arrays(p, t, boundaries=None, subdomains=None):
     Returns
     -------
     NamedMesh
-        Besides `boundaries` its parts are those of `labels.with_sides` that are not empty.
+        Besides `boundaries` its parts are those of `named_mesh.with_sides` that are not empty.
 
     Raises
     ------
@@ -75,12 +75,12 @@ def _named(mesh, boundaries, subdomains, vertex_map):
         str(name): _part(mesh, f"boundaries.{name}", given, vertex_map)
         for name, given in (boundaries or {}).items()
     }
-    regions = {
-        str(name): _region(mesh, f"subdomains.{name}", given)
+    subdomains = {
+        str(name): _subdomain(mesh, f"subdomains.{name}", given)
         for name, given in (subdomains or {}).items()
     }
     own = mesh.parts or _sides(mesh)
-    return replace(mesh, parts=own | parts, regions=mesh.regions | regions)
+    return replace(mesh, parts=own | parts, subdomains=mesh.subdomains | subdomains)
 
 
 def from_skfem(mesh):
@@ -115,8 +115,8 @@ def from_skfem(mesh):
     p, t, vertex_map = check_triangulation(mesh.p, mesh.t)
     boundaries, subdomains = mesh.boundaries or {}, mesh.subdomains or {}
     parts = {name: vertex_map[mesh.facets[:, facets]] for name, facets in boundaries.items()}
-    regions = {name: np.unique(cells) for name, cells in subdomains.items()}
-    return NamedMesh(p, t, parts, regions)
+    subdomains = {name: np.unique(cells) for name, cells in subdomains.items()}
+    return NamedMesh(p, t, parts, subdomains)
 
 
 def from_meshio(mesh):
@@ -187,7 +187,7 @@ def _part(mesh, field, given, vertex_map):
     return vertex_map[ends]
 
 
-def _region(mesh, field, given):
+def _subdomain(mesh, field, given):
     """The triangles in a subdomain, increasing."""
     count = mesh.t.shape[1]
     if callable(given):

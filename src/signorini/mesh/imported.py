@@ -9,7 +9,8 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_triangulation
-from signorini.mesh.labels import NamedMesh, labelled
+from signorini.mesh.labels import labelled
+from signorini.mesh.named_mesh import NamedMesh
 from signorini.mesh.sandbox import run_in_sandbox
 
 MAX_BYTES = 2**28
@@ -61,10 +62,10 @@ def import_mesh(path, limit=MAX_BYTES):
     Returns
     -------
     NamedMesh
-        Its parts are the file's groups of lines, its regions the groups of triangles, overlapping
-        or not: cell sets and physical groups by name; these and other integer cell data by value,
-        as ``"3"``, or ``"marker=3"`` where there are several. Where a group's name is another one's
-        number they are ``"name=3"`` and ``"number=3"``.
+        Its parts are the file's groups of lines, its subdomains the groups of triangles,
+        overlapping or not: cell sets and physical groups by name; these and other integer cell data
+        by value, as ``"3"``, or ``"marker=3"`` where there are several. Where a group's name is
+        another one's number they are ``"name=3"`` and ``"number=3"``.
 
     Raises
     ------
@@ -80,7 +81,7 @@ def import_mesh(path, limit=MAX_BYTES):
     Examples
     --------
     >>> mesh = import_mesh("config/meshes/gasket.msh")
-    >>> sorted(mesh.parts), sorted(mesh.regions)
+    >>> sorted(mesh.parts), sorted(mesh.subdomains)
     (['1', '2', '3', 'clamped', 'foundation', 'free'], ['4', 'plate'])
     """
     path = Path(path)
@@ -170,8 +171,8 @@ def named_mesh(source, raw):
         )
     names = json.loads(str(raw["names"]))
     parts = {name: vertex_map[lines[:, raw[f"line_{k}"]]] for k, name in enumerate(names["line"])}
-    regions = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
-    return NamedMesh(p, t, parts, regions, source, names["note"])
+    subdomains = {name: raw[f"triangle_{k}"] for k, name in enumerate(names["triangle"])}
+    return NamedMesh(p, t, parts, subdomains, source, names["note"])
 
 
 def _regular_size(path):

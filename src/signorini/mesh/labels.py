@@ -1,14 +1,12 @@
 """What holds where on the boundary: labels by the names of parts or by the sign of a formula."""
 
 import difflib
-from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import LABELS, SIDES, offered, part_key
-from signorini.mesh.facets import pair_keys, unique_facets
+from signorini.mesh.boundary import LABELS, offered, part_key
+from signorini.mesh.facets import pair_keys
 from signorini.mesh.geometry import point_text
 from signorini.mesh.triangulation import Triangulation
 from signorini.wording import listed
@@ -17,84 +15,6 @@ _FACETS_SHOWN = 5
 _PARTS_SHOWN = 20
 _RULES_SHOWN = 4
 _LONGEST_NAME = 60
-
-
-@dataclass(frozen=True, eq=False)
-class NamedMesh:
-    """A triangulation whose boundary has named parts, not yet labelled.
-
-    Parameters
-    ----------
-    p : ndarray, shape (2, nv)
-        Vertices, in the user's unit of length.
-    t : ndarray of int, shape (3, nt)
-        Vertices of each triangle, counterclockwise.
-    parts : dict of str to ndarray of int, shape (2, k)
-        End vertices of the facets in each named part of the boundary; parts may share facets.
-    regions : dict of str to ndarray of int
-        Triangles in each named part of the domain.
-    source : str
-        Where the mesh comes from, for messages.
-    note : str
-        Why parts may be missing, for messages; empty if nothing is known.
-    """
-
-    p: np.ndarray
-    t: np.ndarray
-    parts: dict = field(default_factory=dict)
-    regions: dict = field(default_factory=dict)
-    source: str = "mesh"
-    note: str = ""
-
-    @cached_property
-    def _facets(self):
-        return unique_facets(self.t, self.p.shape[1])
-
-    @property
-    def facets(self):
-        """End vertices of each facet, shape (2, nf), numbered as scikit-fem does."""
-        return self._facets[0]
-
-    @property
-    def facets_of_triangles(self):
-        """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
-        return self._facets[1]
-
-    @cached_property
-    def boundary(self):
-        """Facets on the boundary, increasing."""
-        return np.flatnonzero(np.bincount(self.facets_of_triangles.ravel()) == 1)
-
-    @cached_property
-    def midpoints(self):
-        """Midpoints of the boundary facets, shape (2, nb)."""
-        a, b = self.facets[:, self.boundary]
-        return 0.5 * self.p[:, a] + 0.5 * self.p[:, b]
-
-
-def with_sides(mesh):
-    """Add the parts ``bottom``, ``right``, ``top``, ``left``: facets on the bounding box's sides.
-
-    Both ends of a facet must have the extreme coordinate, exactly: no tolerance, whatever the
-    scale.
-
-    Examples
-    --------
-    >>> from signorini.mesh.patterns import criss_cross
-    >>> mesh = criss_cross(2, 1, (0, 0), (2, 1))
-    >>> sorted(with_sides(mesh).parts)
-    ['bottom', 'left', 'right', 'top']
-    """
-    ends = mesh.facets[:, mesh.boundary]
-    (x0, y0), (x1, y1) = mesh.p.min(axis=1), mesh.p.max(axis=1)
-    vertex_on = {
-        "bottom": mesh.p[1] == y0,
-        "right": mesh.p[0] == x1,
-        "top": mesh.p[1] == y1,
-        "left": mesh.p[0] == x0,
-    }
-    sides = {side: ends[:, vertex_on[side][ends].all(axis=0)] for side in SIDES}
-    return replace(mesh, parts=sides | mesh.parts)
 
 
 def label_boundary(mesh, rules, rest=None):
@@ -172,7 +92,7 @@ def labelled(mesh, rules, rest=None, keep=(), curves=None):
     ends = labelled_ends(mesh, rules, rest)
     for name in keep:
         ends[part_key(name)] = mesh.facets[:, mesh.boundary[_selected(mesh, name)]]
-    return Triangulation(mesh.p, mesh.t, ends, mesh.regions, curves=curves or {})
+    return Triangulation(mesh.p, mesh.t, ends, mesh.subdomains, curves=curves or {})
 
 
 def labelled_ends(mesh, rules, rest=None):

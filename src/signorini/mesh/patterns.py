@@ -8,8 +8,8 @@ import numpy as np
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import SIDES
 from signorini.mesh.geometry import doubled_areas
-from signorini.mesh.labels import NamedMesh
 from signorini.mesh.lattice import CORNERS, Lattice
+from signorini.mesh.named_mesh import NamedMesh
 from signorini.mesh.resolution import check_resolution
 
 
@@ -210,7 +210,7 @@ def graded(mesh, towards, exponent):
         raise MeshError(
             f"grading: exponent {exponent} leaves triangles without area; use a smaller one"
         )
-    return NamedMesh(p, mesh.t, mesh.parts, mesh.regions, mesh.source)
+    return mesh.with_vertices(p)
 
 
 def _check_grading(towards, exponent):

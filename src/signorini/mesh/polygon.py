@@ -7,7 +7,7 @@ import numpy as np
 
 from signorini.exceptions import MeshError
 from signorini.mesh.check import check_triangulation
-from signorini.mesh.labels import NamedMesh
+from signorini.mesh.named_mesh import NamedMesh
 from signorini.mesh.polygon_outline import area_inside, check_outline, corner_array, side_lengths
 from signorini.mesh.resolution import check_resolution
 from signorini.mesh.sandbox import run_in_sandbox

@@ -145,7 +145,8 @@ class Rectangle:
     def _cut(self, counts, origin, size):
         """The triangulation that is no `Grid`."""
         from signorini.mesh import patterns
-        from signorini.mesh.labels import NamedMesh, labelled, with_sides
+        from signorini.mesh.labels import labelled
+        from signorini.mesh.named_mesh import NamedMesh, with_sides
         from signorini.mesh.rules import boundary_rules
 
         if self.diagonal in CORNERS:

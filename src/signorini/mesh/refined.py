@@ -91,7 +91,8 @@ class Refined:
         finer = parent.refined()
         if self.boundary is None:
             return finer
-        from signorini.mesh.labels import NamedMesh, labelled_ends
+        from signorini.mesh.labels import labelled_ends
+        from signorini.mesh.named_mesh import NamedMesh
         from signorini.mesh.rules import boundary_rules
 
         ends = labelled_ends(NamedMesh(finer.p, finer.t), boundary_rules(self.boundary))

@@ -34,8 +34,8 @@ def draw_convergence(errors, norm, slopes=None, fitted=False):
         The average slope of each element, named in the legend.
     fitted : bool, optional
         Whether the axes are as long as the data are, with the legend above them and a triangle of
-        the rate that the slopes show; else all is as in the paper: whole decades, and a triangle of
-        the theory's order.
+        the rate that the slopes show (`rate.order_of`); else all is as in the paper: whole decades,
+        and a triangle of the theory's order.
 
     Returns
     -------

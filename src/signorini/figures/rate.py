@@ -6,11 +6,13 @@ from fractions import Fraction
 from signorini.figures.style import GREY
 
 GAP = 1.6  # the least factor between the lowest curve and the triangle
-AGREED = 0.6  # how far slopes may be apart to show one rate
+AGREED = 0.4  # how far slopes may be apart to show one rate
+LEAST = 0.25  # below it a slope is called none
+NEAR = 0.12  # how far their mean may be from a multiple of a half to be called by it
 
 
 def order_of(slopes):
-    """The rate that slopes show, to the nearest half.
+    """The rate that slopes show: a multiple of a half where they are near one, else their mean.
 
     Parameters
     ----------
@@ -19,17 +21,22 @@ def order_of(slopes):
     Returns
     -------
     float
-        0 where they show none: they are apart, or hardly above zero.
+        With two decimals; 0 where they show none: they are apart, or hardly above zero.
 
     Examples
     --------
-    >>> order_of([1.97, 1.99]), order_of([1.42, "1.6"]), order_of([1.53, 0.47])
-    (2.0, 1.5, 0.0)
+    >>> order_of([1.97, 1.99]), order_of([1.42, "1.6"]), order_of([0.82, 0.84])
+    (2.0, 1.5, 0.83)
+    >>> order_of([1.53, 0.47])
+    0.0
     """
     found = [float(slope) for slope in slopes if slope not in (None, "")]
     if not found or max(found) - min(found) > AGREED:
         return 0.0
-    return max(round(2 * math.fsum(found) / len(found)) / 2, 0.0)
+    mean = math.fsum(found) / len(found)
+    half = round(2 * mean) / 2
+    order = half if abs(mean - half) <= NEAR else round(mean, 2)
+    return order if order >= LEAST else 0.0
 
 
 def triangle_below(lowest, order):
@@ -86,4 +93,24 @@ def draw_triangle(axes, along, up, order):
     middle = math.sqrt(left * right)
     axes.annotate("$1$", (middle, bottom), (0, -3), ha="center", va="top", **style)
     place = (right, math.sqrt(bottom * top))
-    axes.annotate(f"${Fraction(order)}$", place, (3, 0), va="center", **style)
+    axes.annotate(f"${name_of(order)}$", place, (3, 0), va="center", **style)
+
+
+def name_of(order):
+    """What the side of a triangle is called.
+
+    Parameters
+    ----------
+    order : float
+        A multiple of a half goes by its fraction.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> name_of(2), name_of(1.5), name_of(0.83)
+    ('2', '3/2', '0.83')
+    """
+    return f"{order:.2f}" if (2 * order) % 1 else str(Fraction(order))

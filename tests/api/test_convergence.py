@@ -52,6 +52,19 @@ def test_levels_may_be_whole_numbers_of_any_type():
     pd.testing.assert_frame_equal(frame, signorini.convergence(both, [4, 8], "smooth", ["l2"]))
 
 
+def test_levels_may_count_refinements_from_zero():
+    coarse = signorini.rectangle(4)
+
+    def refined(k):
+        mesh = coarse.refined(k)
+        return signorini.problem(mesh, "P1", exact="smooth", dirichlet=SIDES, contact="bottom")
+
+    frame = signorini.convergence(refined, [0, 1, 2], "smooth", ["l2"])
+    assert frame["n"].tolist() == [0, 1, 2]
+    assert frame["h"].tolist() == [1 / 4, 1 / 8, 1 / 16]
+    assert signorini.rates(frame)["slope"].iloc[-1] == pytest.approx(2.0, abs=0.1)
+
+
 def test_slopes_are_those_of_the_theory():
     frame = signorini.rates(signorini.convergence(both, [8, 16, 32], "smooth"))
     fit = frame[frame["kind"] == "fit"].set_index(["element", "norm"])["slope"]
@@ -107,7 +120,10 @@ def test_against_a_finer_solution():
             lambda: signorini.convergence(signorini.Scene.from_dict(SCENE), [4]),
             "levels: [4] (list) is not needed, the scene has it; drop it",
         ),
-        (lambda: signorini.rates(pd.DataFrame({"h": [1.0]})), "no column 'element'"),
+        (
+            lambda: signorini.rates(pd.DataFrame({"h": [1.0]})),
+            "no column 'element' in a table with the columns h;",
+        ),
         (lambda: signorini.rates(signorini.convergence(both, [4], "smooth")), "two levels"),
     ],
 )

@@ -107,3 +107,17 @@ def test_sides_that_have_names_are_not_listed_by_number_as_well():
         signorini.problem(POLYGON, f=-1, contact="nowhere", dirichlet=NAMES[0])
     assert str(caught.value).endswith(f"known: {', '.join(NAMES)}")
     assert signorini.problem(POLYGON, f=-1, contact="side-1", dirichlet="side-0").contact.any()
+
+
+@pytest.mark.parametrize(("field", "other"), [("contact", "obstacle"), ("neumann", "g")])
+@pytest.mark.parametrize("mesh", MESHES.values(), ids=MESHES)
+def test_values_are_not_dropped_where_names_are_asked_for(mesh, field, other):
+    message = told(mesh, dirichlet={"top": 0}, **{field: {"bottom": -0.5}})
+    wanted = f"has values, which it does not take; give names here, and the values in {other}"
+    assert message == f"{field}: {{'bottom': -0.5}} (dict) {wanted}"
+
+
+def test_a_mesh_is_shown_with_the_names_that_a_user_gave():
+    assert repr(POLYGON).endswith(f"; boundaries: {', '.join(NAMES)}>")
+    disc = skfem.MeshTri.init_circle(2)
+    assert repr(signorini.triangulation((disc.p, disc.t))).endswith("; boundaries: none named>")

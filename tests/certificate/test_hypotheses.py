@@ -163,6 +163,8 @@ def test_a_coefficient_that_varies_within_triangles_is_refused():
     mesh, told = grid(4), statement(coefficient="1 + x")
     with pytest.raises(FormulaError, match=r"data\.coefficient: 1 \+ x varies within the triangle"):
         certify_level(mesh, told.data, *solved(mesh, told))
+    with pytest.raises(FormulaError, match="give a number, or one for each subdomain; or let"):
+        certify_level(mesh, told.data, *solved(mesh, told))
 
 
 def test_a_coefficient_whose_lines_the_mesh_follows_is_not():

@@ -42,6 +42,11 @@ def test_the_problem_of_a_scene_is_that_of_discretize():
     assert ours.mesh.same_as(theirs.mesh)
 
 
+def test_a_scene_is_shown_in_a_line():
+    shown = "<Scene plate: P1, CR on n = 2, 4; truth none>"
+    assert repr(Scene.from_dict(LEAST | {"levels": [2, 4]}, name="plate")) == shown
+
+
 @pytest.mark.parametrize(
     ("mapping", "words"),
     [

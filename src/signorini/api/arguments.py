@@ -13,6 +13,7 @@ from signorini.formula import Formula
 from signorini.mesh.boundary import offered
 from signorini.wording import cut, nearest
 
+_VALUES = {"contact": "obstacle", "neumann": "g"}  # where the values of a condition are given
 _DATUM = "give a number, a formula in x and y as text, or a function of x and y"
 
 
@@ -144,6 +145,11 @@ def read_names(value: Names | None, field: str, known: Iterable[str]) -> tuple[s
     signorini.exceptions.SceneError: contact: the boundary has no part 'lid'; known: ...
     """
     known = list(known)
+    if isinstance(value, Mapping):
+        raise SceneError(
+            f"{field}: {described(value)} has values, which it does not take; "
+            f"give names here, and the values in {_VALUES[field]}"
+        )
     names = (value,) if isinstance(value, str) else () if value is None else value
     if not isinstance(names, Iterable) or not all(isinstance(name, str) for name in names):
         raise SceneError(
@@ -159,7 +165,9 @@ def read_names(value: Names | None, field: str, known: Iterable[str]) -> tuple[s
 
 
 def described(value: object) -> str:
-    """What a wrong argument is, for a message: shape and type of an array, else value and type.
+    """What a wrong argument is, for a message: shape and type of an array, columns of a table.
+
+    Of anything else it is the value and its type.
 
     Examples
     --------
@@ -169,5 +177,7 @@ def described(value: object) -> str:
     """
     if hasattr(value, "shape") and hasattr(value, "dtype"):
         return f"an array of shape {value.shape} and type {value.dtype}"
+    if hasattr(value, "columns"):
+        return f"a table with the columns {cut(', '.join(map(str, value.columns)), 40)}"
     text = " ".join(repr(value).split())
     return f"{cut(text, 40)} ({type(value).__name__})"

@@ -34,7 +34,7 @@ def as_stored(solution: Solution) -> Any:
     """
     problem = solution.problem
     h = longest_edge(problem.mesh) if problem.h is None else problem.h
-    return stored(problem, solution, problem.n or 1, h)
+    return stored(problem, solution, 1 if problem.n is None else problem.n, h)
 
 
 def measure_of(

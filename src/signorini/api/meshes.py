@@ -10,7 +10,7 @@ import numpy as np
 from signorini.api.arguments import described
 from signorini.api.types import Floats, Integers
 from signorini.exceptions import MeshError
-from signorini.mesh.boundary import SIDES, part_key
+from signorini.mesh.boundary import SIDES, offered, part_key
 from signorini.mesh.domain import make_domain
 
 
@@ -210,7 +210,7 @@ class Mesh:
         return mesh.skfem.with_boundaries(names).with_subdomains(subdomains)
 
     def __repr__(self) -> str:
-        parts = ", ".join(self.boundaries)
+        parts = ", ".join(offered(self.boundaries)) or "none named"
         return (
             f"<Mesh of level {self.n}: {self.number_of_triangles} triangles; boundaries: {parts}>"
         )

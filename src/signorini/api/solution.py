@@ -106,12 +106,13 @@ class Solution(SolverSolution):
 
         Parameters
         ----------
-        points : array_like, shape (2, k)
-            In the domain, unit of length.
+        points : array_like, shape (2, ...)
+            In the domain, unit of length: one point (x, y), x above y for several, or what
+            `numpy.meshgrid` returns.
 
         Returns
         -------
-        ndarray, shape (k,)
+        float or ndarray, shape (...)
             Where a CR function jumps, between triangles, the value in one of them.
 
         Raises
@@ -128,6 +129,8 @@ class Solution(SolverSolution):
         >>> problem = signorini.problem(signorini.rectangle(4), f=0, dirichlet=ends)
         >>> signorini.solve(problem).at([[0.3, 0.3], [0.25, 0.9]]).round(12)
         array([0.25, 0.9 ])
+        >>> round(signorini.solve(problem).at((0.3, 0.25)), 12)
+        0.25
         """
         from signorini.fem.evaluate import evaluate
 

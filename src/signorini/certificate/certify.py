@@ -107,5 +107,6 @@ def _check_coefficient(mesh, given, coefficient):
         raise FormulaError(
             f"{given.field}: {given.text} varies within the triangle at ({x[at]:.6g}, "
             f"{y[at]:.6g}); a certificate needs a coefficient that is constant on each triangle: "
-            "let the mesh follow its lines"
+            "give a number, or one for each subdomain; or let the mesh follow the lines at "
+            "which it jumps"
         )

@@ -8,7 +8,7 @@ from pathlib import Path
 from signorini.exceptions import SignoriniError, StorageError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """A validated scene.
 
@@ -32,6 +32,11 @@ class Scene:
     source: Path | None = None
     reference_note: str | None = None
     written: dict | None = None
+
+    def __repr__(self):
+        levels = ", ".join(map(str, self.levels))
+        solved = f"{', '.join(self.elements)} on n = {levels}"
+        return f"<Scene {self.name}: {solved}; truth {self.truth['kind']}>"
 
     @classmethod
     def from_dict(cls, mapping, name="scene", folder="."):

@@ -41,5 +41,5 @@ def find_element(element):
         near = difflib.get_close_matches(str(element).upper(), ELEMENTS, n=1, cutoff=0.3)
         hint = f"; did you mean {near[0]}?" if near else ""
         known = ", ".join(ELEMENTS)
-        raise SceneError(f"elements: unknown element {element!r}; known: {known}{hint}")
+        raise SceneError(f"element: unknown element {element!r}; known: {known}{hint}")
     return ELEMENTS[element]

@@ -14,7 +14,7 @@ def with_options(statement, diagonal, load):
     statement : ProblemStatement
         On a rectangle.
     diagonal : str
-        As in `mesh.Rectangle`.
+        As in `Rectangle`.
     load : str
         Rule for the load.
 

@@ -35,7 +35,7 @@ class ProblemStatement:
 
     @cached_property
     def triangulations(self):
-        """The domain as `mesh.Rectangle` or `mesh.Refined`: the triangulation of every level.
+        """The domain as `Rectangle` or `Refined`: the triangulation of every level.
 
         Examples
         --------

@@ -47,10 +47,12 @@ def why_not(problem):
 
 
 def solve_multigrid(problem, guess=None, tolerance=0.0):
-    """Solve any problem; arguments and errors as in `solvers.fourier.solve_fourier`.
+    """Solve any problem.
 
     Parameters
     ----------
+    problem, guess
+        As of `solvers.fourier.solve_fourier`, also for what is raised.
     tolerance : float
         Estimated error, relative to the variation of u, at which to end without a proof; 0 for the
         last bit and a proof.

@@ -129,7 +129,7 @@ def violated_signs(active, gap, force, errors, variation=None):
     active : ndarray of bool, shape (nc,)
     gap, force : ndarray, shape (nc,)
         Unit of u; of the load.
-    errors : Errors
+    errors : ErrorEstimates
     variation : float, optional
         Of u. Where it is given, an error counts for no more than the rounding of the number itself.
 
@@ -168,7 +168,7 @@ def dofs_to_bind(u, active, gap, errors):
     active : ndarray of bool, shape (nc,)
     gap : ndarray, shape (nc,)
         Unit of u.
-    errors : Errors
+    errors : ErrorEstimates
 
     Returns
     -------
@@ -212,8 +212,8 @@ def assess(u, active, iterations, gap, force, errors, released=None):
         See `RouteResult`.
     gap, force : ndarray, shape (nc,)
         Of the contact dofs; unit of u, and of the load.
-    errors : Errors
-    released : Released, optional
+    errors : ErrorEstimates
+    released : ReleaseEffect, optional
         With the undecided dofs let go that bind, if there are any and a route knows it. What it
         moves may be on the other side, too.
 

@@ -43,6 +43,8 @@ def resting_at(problem, maxima=alone):
     ----------
     problem : Problem or Share
         Of one part, and whose constraint is from below.
+    maxima : callable, optional
+        Of numbers of this process, the greatest of all processes.
 
     Returns
     -------
@@ -154,30 +156,70 @@ def _is_nearly_constant(low, high):
     return low <= high and high - low <= _NEARLY_CONSTANT * max(abs(low), abs(high))
 
 
-def add_constant(problem, deviation, constant, active):
-    """u itself, given values taken over as they are; the same array where there is no constant.
+def hold_on_obstacle(problem, u, active):
+    """Put contact dofs onto the obstacle where they bind, and not below it elsewhere, in place.
 
     Parameters
     ----------
     problem : Problem or Share
-    deviation : ndarray, shape (m,)
-        u - constant.
-    constant : float
+    u : ndarray, shape (m,)
     active : ndarray of bool, shape (c,)
         Whether each contact dof, or each own one of the share, binds.
-
-    Returns
-    -------
-    ndarray, shape (m,)
 
     Examples
     --------
     >>> from signorini import discretize, load_scene
     >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 2)
-    >>> u = add_constant(problem, np.zeros(problem.b.size), 1.0, np.zeros(3, dtype=bool))
-    >>> bool(np.all(u[problem.fixed] == problem.fixed_values)), float(u[problem.contact][0])
-    (True, 1.0)
+    >>> u = np.full(problem.b.size, -1.0)
+    >>> hold_on_obstacle(problem, u, np.ones(3, dtype=bool))
+    >>> bool(np.all(u[problem.contact] == problem.lower))
+    True
     """
+    contact, lower = problem.contact, problem.lower
+    u[contact] = np.where(active, lower, np.maximum(u[contact], lower))
+
+
+def unscaled(problem, result, active, constant, exponent):
+    """What a route found, in the units of the problem and with no force that pulls.
+
+    Parameters
+    ----------
+    problem : Problem or Share
+        As it was before it was scaled.
+    result : RouteResult
+        Of the problem scaled by 2**-exponent and counted from a constant; its u is overwritten.
+    active : ndarray of bool, shape (c,)
+        See `hold_on_obstacle`.
+    constant : float
+        Of the scaled problem.
+    exponent : int
+
+    Returns
+    -------
+    u, deviation : ndarray, shape (m,)
+        u, and u - constant; the same array where there is no constant.
+    multiplier : ndarray, shape (nc,)
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> from signorini.solvers.direct import solve_direct
+    >>> problem = discretize(load_scene("config/scenes/paper.yaml"), "P1", 2)
+    >>> doubled = solve_direct(problem.scaled(1))
+    >>> u, deviation, multiplier = unscaled(problem, doubled, doubled.active, 0.0, exponent=-1)
+    >>> bool(np.all(u == solve_direct(problem).u)), u is deviation
+    (True, True)
+    """
+    multiplier = np.where(result.active, np.maximum(result.multiplier, 0.0), 0.0)
+    with np.errstate(over="ignore"):  # infinite is what no double holds
+        deviation = np.ldexp(result.u, exponent, out=result.u)
+        multiplier = np.ldexp(multiplier, exponent)
+        u = _with_constant(problem, deviation, np.ldexp(constant, exponent), active)
+    return u, deviation, multiplier
+
+
+def _with_constant(problem, deviation, constant, active):
+    """u itself, given values taken over as they are; the same array where there is no constant."""
     if not constant:
         return deviation
     u = deviation + constant

@@ -13,11 +13,12 @@ from signorini.solvers.proof import accuracy_of, proved_status
 from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult
 from signorini.solvers.routes import ALL_METHODS, REQUESTED, choose_route
 from signorini.solvers.scaling import (
-    add_constant,
     at_rest,
     exponent_of,
+    hold_on_obstacle,
     resting_at,
     solve_from_constant,
+    unscaled,
 )
 from signorini.solvers.solution import Solution, kkt_residual
 
@@ -82,21 +83,16 @@ def _solved(problem, method, reason, guess, wanted):
     rest = _at_rest(scaled, method, reason)
     shifted, constant, found = rest or solve_from_constant(scaled, find, guess)
     result, method, reason = found
-    u = result.u
-    active, c = result.active, shifted.contact
-    u[c] = np.where(active, shifted.lower, np.maximum(u[c], shifted.lower))
-    residual, _ = kkt_residual(shifted, u)
+    hold_on_obstacle(shifted, result.u, result.active)
+    residual, _ = kkt_residual(shifted, result.u)
     accuracy = accuracy_of(result, constant)
     status = _checked_status(problem, method, residual, accuracy, result)
-    multiplier = np.where(active, np.maximum(result.multiplier, 0.0), 0.0)
-    with np.errstate(over="ignore"):
-        deviation, multiplier = np.ldexp(u, exponent, out=u), np.ldexp(multiplier, exponent)
-        u = add_constant(problem, deviation, np.ldexp(constant, exponent), active)
+    u, deviation, multiplier = unscaled(problem, result, result.active, constant, exponent)
     _check_size(u, multiplier)
     return Solution(
         u=u,
         multiplier=multiplier,
-        active=active,
+        active=result.active,
         residual=residual,
         accuracy=accuracy,
         multiplier_accuracy=result.multiplier_accuracy,
@@ -108,12 +104,12 @@ def _solved(problem, method, reason, guess, wanted):
         constant=float(np.ldexp(constant, exponent)),
         deviation=deviation,
         problem=problem,
-        algebraic_error=_unscaled(result.algebraic_error, exponent),
-        discretisation_error=_unscaled(result.discretisation_error, exponent),
+        algebraic_error=_unscaled_error(result.algebraic_error, exponent),
+        discretisation_error=_unscaled_error(result.discretisation_error, exponent),
     )
 
 
-def _unscaled(error, exponent):
+def _unscaled_error(error, exponent):
     return None if error is None else float(np.ldexp(error, exponent))
 
 

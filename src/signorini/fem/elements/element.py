@@ -232,8 +232,8 @@ class Element(ABC):
 
         Parameters
         ----------
-        trace : Side
-            The contact part, as `exact.boundary_trace.find_side` gives it.
+        trace : BoundaryTrace
+            Of the contact part.
         dofs : ndarray of int, shape (nc,)
             Contact dofs, increasing.
 

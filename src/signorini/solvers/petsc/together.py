@@ -16,11 +16,12 @@ from signorini.solvers.petsc.search import search
 from signorini.solvers.proof import accuracy_of, proved_status, violation
 from signorini.solvers.route_result import USELESS_ACCURACY
 from signorini.solvers.scaling import (
-    add_constant,
     at_rest,
     exponent_of,
+    hold_on_obstacle,
     resting_at,
     solve_from_constant,
+    unscaled,
 )
 
 
@@ -97,14 +98,14 @@ def _check_held(share):
 
 
 def _solved(share):
-    maxima, contact = share.maxima, share.contact
+    maxima = share.maxima
     exponent = exponent_of(share, maxima)
     scaled = share.scaled(-exponent)
     rest = _at_rest(scaled)
     shifted, constant, (result,) = rest or solve_from_constant(scaled, _find, maxima=maxima)
-    u, binds = result.u, result.active[share.places]
-    u[contact] = np.where(binds, shifted.lower, np.maximum(u[contact], shifted.lower))
-    residual, _ = violation(shifted, u, maxima)
+    binds = result.active[share.places]
+    hold_on_obstacle(shifted, result.u, binds)
+    residual, _ = violation(shifted, result.u, maxima)
     accuracy = accuracy_of(result, constant, maxima)
     status = proved_status(residual, accuracy, result)
     if status == "failed" or not accuracy <= USELESS_ACCURACY:
@@ -112,10 +113,9 @@ def _solved(share):
             f"domain: petsc: KKT residual {residual:.2e}, relative error of u {accuracy:.2e}; "
             "try another solver.method"
         )
-    multiplier = np.where(result.active, np.maximum(result.multiplier, 0.0), 0.0)
-    deviation, multiplier = np.ldexp(u, exponent), np.ldexp(multiplier, exponent)
+    u, _, multiplier = unscaled(share, result, binds, constant, exponent)
     return SharedSolution(
-        u=add_constant(share, deviation, np.ldexp(constant, exponent), binds),
+        u=u,
         multiplier=multiplier,
         active=result.active,
         undecided=result.undecided,

@@ -20,7 +20,7 @@ def errors_of_diagonal(statement, diagonal, levels, reference_n, loads=LOADS, ru
     statement : ProblemStatement
         On a rectangle.
     diagonal : str
-        As in `mesh.Rectangle`; of all meshes, that of the reference too.
+        As in `Rectangle`; of all meshes, that of the reference too.
     levels : sequence of int
     reference_n : int
         Level of the P1 reference, a multiple of all others. It has the load rule of the solutions

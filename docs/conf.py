@@ -44,6 +44,7 @@ extensions = [
     "mathml",
     "made_blocks",
     "absolute_values",
+    "line_breaks",
 ]
 
 # Markdown: formulas between dollars, links to headings, pictures written as HTML.

@@ -23,7 +23,7 @@ python examples/ex01_first_solve.py
 ```
 
 It prints what it found and draws its picture into the folder that you are in.
-[python.md](python.md) explains what they use. This page is written by `make examples`, the pictures
+[From Python](python.md) explains what they use. This page is written by `make examples`, the pictures
 are what the scripts draw, and tests run them all.
 """
 

@@ -13,7 +13,8 @@ REFERENCE = {"scene": "paper", "element": "P1", "method": "fourier", "n": "512"}
 SIXTH = {"hypothesis": "load in single precision", "of": "all"}
 PROMISES = """\
 - **A paper's numbers, checked digit by digit.** The experiment of Hua and Wang (2007) is rebuilt
-  from the statement of its problem alone: {met} ([the paper](docs/paper.md));
+  from the statement of its problem, and five choices that it leaves open were found by trial:
+  {met} ([the paper](docs/paper.md));
   with the load rounded to single precision, {sixth}
   ([a sixth choice](docs/studies/sensitivity/sensitivity.md#a-sixth-choice)).
 - **Solutions that say how far to trust them.** Each states its residual, how far rounding may have

@@ -23,8 +23,8 @@ python examples/ex01_first_solve.py
 ```
 
 It prints what it found and draws its picture into the folder that you are in.
-[From Python](python.md) explains what they use. This page is written by `make examples`, the pictures
-are what the scripts draw, and tests run them all.
+[From Python](python.md) explains what they use. This page is written by `make examples`, the
+pictures are what the scripts draw, and tests run them all.
 """
 
 

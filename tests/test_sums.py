@@ -33,7 +33,7 @@ KNOWN = {
     "studies/sensitivity/sixth_choice.py": 2,
     "studies/stability/claims.py": 3,
     "studies/theory/exact_parts.py": 2,
-    "sweeps/forecast.py": 1,
+    "sweeps/jobs.py": 1,
 }
 
 

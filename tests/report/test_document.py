@@ -6,7 +6,8 @@ import jinja2
 import pytest
 
 from signorini.report import document, quantities
-from signorini.report.document import Table, latex_text, render_text
+from signorini.report.document import Table, render_text
+from signorini.report.markup import latex_text
 
 PAGE = """
 # A_B

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import signorini
-from signorini.errors.measure import against_exact, row
+from signorini.errors.measure import against_exact, error_row
 from signorini.errors.rates import rate_rows
 from signorini.report.expectations import check_expectations
 from signorini.solvers.stored import read_solution, write_solution
@@ -66,7 +66,9 @@ def test_an_exact_scene_finds_what_it_expects(tmp_path, name):
             problem = signorini.discretize(scene, element, n)
             solution = signorini.solve(problem)
             table.append(
-                row(stored(tmp_path / "s.npz", problem, solution, n, domain.mesh_size(n)), errors)
+                error_row(
+                    stored(tmp_path / "s.npz", problem, solution, n, domain.mesh_size(n)), errors
+                )
             )
     rates = [found for found in rate_rows(table) if found["kind"] == scene.document["slope"]]
     assert check_expectations(scene.document["expect"], table, rates, name).startswith(

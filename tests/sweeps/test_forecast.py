@@ -9,15 +9,8 @@ import signorini.sweeps.solves as solves
 from signorini.scene.scene import Scene
 from signorini.solvers import solve
 from signorini.sweeps.bundles import bundles
-from signorini.sweeps.forecast import (
-    Job,
-    by_rule,
-    elapsed,
-    peak_memory,
-    points_job,
-    scene_jobs,
-    sweep_jobs,
-)
+from signorini.sweeps.forecast import points_job, scene_jobs, sweep_jobs
+from signorini.sweeps.jobs import Job, by_rule, elapsed, peak_memory
 from signorini.sweeps.records import solve_points
 from signorini.sweeps.sample import sample_points, spread
 from signorini.work import Work, counting

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini.sweeps.solves as solves
-from signorini.errors.measure import against_exact, row
+from signorini.errors.measure import against_exact, error_row
 from signorini.exceptions import SceneError
 from signorini.scene.read import load_scene
 from signorini.solvers import solve
@@ -86,7 +86,7 @@ def test_the_errors_are_those_of_the_scene_by_itself(read, tmp_path):
     for element in ("P1", "CR"):
         for n in (8, 16):
             problem = own.problem(element, n)
-            expected = row(stored(problem, solve(problem), n, 1 / n), errors)
+            expected = error_row(stored(problem, solve(problem), n, 1 / n), errors)
             (found,) = [
                 found
                 for found in rows

@@ -9,7 +9,8 @@ from project import ROOT, Project
 
 from signorini.scene.read import check_points, load_scene
 from signorini.scene.sweep import sweep_points
-from signorini.sweeps.forecast import by_rule, scene_jobs, sweep_jobs
+from signorini.sweeps.forecast import scene_jobs, sweep_jobs
+from signorini.sweeps.jobs import by_rule
 
 SCENE = """\
 domain: {kind: rectangle}

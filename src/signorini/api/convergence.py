@@ -11,7 +11,7 @@ from signorini.api.frame import as_frame
 from signorini.api.measures import as_stored, measure_of, warn_of_reference
 from signorini.api.scene_study import scene_rows
 from signorini.api.solve import solve
-from signorini.errors.measure import row
+from signorini.errors.measure import error_row
 from signorini.exceptions import SceneError, SignoriniError
 from signorini.fem.problem import Problem
 from signorini.scene.scene import Scene
@@ -120,7 +120,7 @@ def _rows(
             solution = solve(_of_level(problem, n))
             measure = measure or measure_of(truth, solution, norms)
             problems.append(solution.problem)
-            rows.append(row(as_stored(solution), lambda _, s=solution, m=measure: m(s)))
+            rows.append(error_row(as_stored(solution), lambda _, s=solution, m=measure: m(s)))
     if problems:
         warn_of_reference(truth, problems, stacklevel=3)
     first = {entry["element"]: k for k, entry in reversed(list(enumerate(rows)))}

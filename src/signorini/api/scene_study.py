@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from signorini.api.solving import solve_level, solve_levels
-from signorini.errors.measure import against_exact, against_reference, row
+from signorini.errors.measure import against_exact, against_reference, error_row
 from signorini.exceptions import SceneError
 from signorini.scene.scene import Scene, naming
 
@@ -45,7 +45,7 @@ def scene_rows(scene: Scene, norms: Sequence[str] | None = None) -> list[dict[st
     check_truth(scene)
     with naming(scene.source):
         errors = scene_errors(scene, scene.problem_statement.triangulations, norms)
-        return [row(solution, errors) for solution in solve_levels(scene)]
+        return [error_row(solution, errors) for solution in solve_levels(scene)]
 
 
 def check_truth(scene: Scene) -> None:

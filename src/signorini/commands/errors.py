@@ -13,7 +13,7 @@ from signorini.api.solving import solve_levels
 from signorini.commands.catalogue import Outcome
 from signorini.commands.inputs import add_output, add_scene, domain_of, scene_of
 from signorini.commands.text_table import text_table
-from signorini.errors.measure import row
+from signorini.errors.measure import error_row
 from signorini.scene.scene import naming
 from signorini.solvers.stored import read_solution
 from signorini.storage import write_csv
@@ -47,7 +47,7 @@ def run(arguments):
         solutions = solve_levels(scene)
         if arguments.solutions:
             solutions = map(read_solution, arguments.solutions)
-        rows = [row(solution, errors) for solution in solutions]
+        rows = [error_row(solution, errors) for solution in solutions]
     if arguments.output:
         write_csv(arguments.output, rows)
         return Outcome(f"errors: {len(rows)} solutions", rows)

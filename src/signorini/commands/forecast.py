@@ -23,14 +23,8 @@ from signorini.commands.inputs import add_scene, scene_of
 from signorini.exceptions import SceneError
 from signorini.scene.sweep import sweep_points
 from signorini.sweeps.bundles import bundles
-from signorini.sweeps.forecast import (
-    by_rule,
-    elapsed,
-    level_cost,
-    peak_memory,
-    scene_jobs,
-    sweep_jobs,
-)
+from signorini.sweeps.forecast import level_cost, scene_jobs, sweep_jobs
+from signorini.sweeps.jobs import by_rule, elapsed, peak_memory
 from signorini.sweeps.sample import sample_points, spread
 from signorini.wording import counted
 

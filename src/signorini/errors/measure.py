@@ -215,7 +215,7 @@ def _with_round_off(errors, bounds, unresolved):
     return errors | {"floor": " ".join(round_off_alone(errors, bounds, unresolved))}
 
 
-def row(solution, errors):
+def error_row(solution, errors):
     """The row of errors.csv for a stored solution.
 
     Parameters
@@ -234,8 +234,8 @@ def row(solution, errors):
     >>> from signorini import load_scene
     >>> from signorini.api.solving import solve_level
     >>> solution = solve_level(load_scene("config/scenes/paper.yaml"), "P1", 8)
-    >>> told = row(solution, lambda _: {"l2": 0.5})
-    >>> told["element"], told["n"], told["l2"], told["status"]
+    >>> row = error_row(solution, lambda _: {"l2": 0.5})
+    >>> row["element"], row["n"], row["l2"], row["status"]
     ('P1', 8, 0.5, 'solved')
     """
     what = {

@@ -16,8 +16,6 @@ class Norm:
         Over a column of a table in LaTeX.
     text : str
         In plain text and in Markdown.
-    macro : str
-        In the name of a LaTeX macro, which takes letters only.
     axis : str
         At the axis of a figure.
     symbol : str
@@ -31,7 +29,6 @@ class Norm:
 
     heading: str
     text: str
-    macro: str
     axis: str
     symbol: str
 
@@ -40,49 +37,42 @@ NORMS = {
     "l2": Norm(
         heading="$L^2$ error",
         text="L2",
-        macro="Ltwo",
         axis="$L^2$ error",
         symbol="$L^2$",
     ),
     "h1": Norm(
         heading="$H^1$ error",
         text="H1",
-        macro="Hone",
         axis="$H^1$ error",
         symbol="$H^1$",
     ),
     "h1_semi": Norm(
         heading="broken $H^1$ seminorm",
         text="H1 seminorm",
-        macro="Semi",
         axis="broken $H^1$ seminorm of the error",
         symbol="$H^1$ seminorm",
     ),
     "energy": Norm(
         heading="energy norm",
         text="energy",
-        macro="Energy",
         axis="error in the energy norm",
         symbol="energy",
     ),
     "trace_l2": Norm(
         heading="$L^2$ error of the trace",
         text="trace L2",
-        macro="Trace",
         axis=r"$L^2(\Gamma_C)$ error of $u$",
         symbol="trace",
     ),
     "multiplier_l2": Norm(
         heading="$L^2$ error of the multiplier",
         text="multiplier L2",
-        macro="Multiplier",
         axis=r"$L^2(\Gamma_C)$ error of $k\,\mathrm{d}u/\mathrm{d}\nu$",
         symbol="multiplier",
     ),
     "critical_points": Norm(
         heading="critical points",
         text="critical points",
-        macro="Critical",
         axis="distance of the critical points",
         symbol="critical points",
     ),

@@ -36,14 +36,13 @@ from pathlib import Path
 import jinja2
 
 from signorini.report import quantities
+from signorini.report.markup import latex_text, markdown_text
 from signorini.report.rounding import percent
-from signorini.report.table_writer import ESCAPES
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
 _LIBRARY = Path(__file__).parents[1]
-_SYMBOLS = {"≤": r"$\le$", "×": r"$\times$", "<": "$<$", ">": "$>$", r" \%": r"\,\%"}
 _PIPE = re.compile(r"(?<!\\)\|")
-_VERBATIM = re.compile(r"(\$\$[^$]*\$\$|\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
+_INLINE = {"markdown": markdown_text, "latex": latex_text}
 
 
 @dataclass(frozen=True)
@@ -211,91 +210,6 @@ def _block(text):
         if text.startswith(mark):
             return Block(kind, text.removeprefix(mark))
     return Block("paragraph", text)
-
-
-def latex_text(text, known=None):
-    """Return a text in the markup of pages as LaTeX.
-
-    Parameters
-    ----------
-    text : str
-    known : dict, optional
-        Name of a figure or table that the text may refer to -> its `Block`.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    KeyError
-        If the text refers to a name that is not known.
-
-    Examples
-    --------
-    >>> print(latex_text("1e-9 of *all*, `a_b`"))
-    $10^{-9}$ of \\emph{all}, \\texttt{a\\_b}
-    """
-    parts = _VERBATIM.split(text)
-    parts[::2] = map(_latex_words, parts[::2])
-    for k, part in enumerate(parts[1::2]):
-        if part.startswith("`"):
-            parts[2 * k + 1] = rf"\texttt{{{part[1:-1].translate(str.maketrans(ESCAPES))}}}"
-        elif part.startswith("$$"):
-            parts[2 * k + 1] = rf"\[{part[2:-2]}\]"
-        elif part.startswith("@"):
-            parts[2 * k + 1] = rf"\autoref{{{known[part[1:]].kind}:{part[1:]}}}"
-    return "".join(parts)
-
-
-def _latex_words(text):
-    """Without mathematics: minus signs, powers of ten, and thin spaces before the percent sign."""
-    text = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text)
-    text = text.translate(str.maketrans(ESCAPES))
-    for sign, symbol in _SYMBOLS.items():
-        text = text.replace(sign, symbol)
-    text = re.sub(r"\*([^*]+)\*", r"\\emph{\1}", text)
-    text = re.sub(r"\b(\d[\d.]*)e([+-])0*(\d+)", _power_of_ten, text)
-    return re.sub(r"(?<![\w{}])-(?=\d)", "$-$", text)
-
-
-def _power_of_ten(match):
-    mantissa, sign, exponent = match.groups()
-    times = "" if mantissa == "1" else rf"{mantissa}\times"
-    return rf"${times}10^{{{sign.strip('+')}{exponent}}}$"
-
-
-def markdown_text(text, known=None):
-    """Return a text in the markup of pages as Markdown, where only references are changed.
-
-    Parameters
-    ----------
-    text, known
-        As for `latex_text`.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    KeyError
-        If the text refers to a name that is not known.
-
-    Examples
-    --------
-    >>> markdown_text("see @error", {"error": Block("figure", "The caption.", "error", number=1)})
-    'see Figure 1'
-    """
-    parts = _VERBATIM.split(text)
-    for k, part in enumerate(parts):
-        if k % 2 and part.startswith("@"):
-            block = known[part[1:]]
-            parts[k] = f"{block.kind.capitalize()} {block.number}"
-    return "".join(parts)
-
-
-_INLINE = {"markdown": markdown_text, "latex": latex_text}
 
 
 @cache

@@ -3,7 +3,7 @@
 import json
 import math
 
-from signorini.errors.measure import against_exact, against_reference, row
+from signorini.errors.measure import against_exact, against_reference, error_row
 from signorini.errors.norms import RATED, REFERENCE
 from signorini.fem.problem import discretize_on
 from signorini.mesh.domain import make_domain
@@ -66,7 +66,7 @@ class Solver:
             before = None
             for n in scene.levels:
                 problem, solution = solved(element, n)
-                told = row(solution, errors)
+                told = error_row(solution, errors)
                 contact = contact_quantities(domain.level(n), solution)
                 asked = output_rows(problem, solution, scene.document["quantities"])
                 named = {f"{QUANTITY}{found['name']}": found["value"] for found in asked}

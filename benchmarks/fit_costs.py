@@ -7,6 +7,7 @@ tests/scene/test_job_costs.py to judge the fits by.
     python benchmarks/fit_costs.py
 """
 
+import argparse
 import csv
 import json
 from itertools import groupby
@@ -79,6 +80,9 @@ def job_peak(row):
 
 def main():
     """Fit and write both."""
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
     fit_solves()
     fit_jobs()
 

@@ -7,6 +7,7 @@ of an hour.
     python benchmarks/measure_jobs.py
 """
 
+import argparse
 import csv
 import os
 import subprocess
@@ -115,8 +116,15 @@ def measured():
                 yield row
 
 
-if __name__ == "__main__":
+def main():
+    """Measure all cases and write the table; it is replaced once all are measured."""
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
+    rows = [COLUMNS, *measured()]
     with open(MEASURED, "w", encoding="utf-8", newline="") as stream:
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(COLUMNS)
-        table.writerows(measured())
+        csv.writer(stream, lineterminator="\n").writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

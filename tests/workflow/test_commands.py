@@ -190,6 +190,13 @@ def test_examples():
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.parametrize("file", sorted((ROOT / "benchmarks").glob("*.py")), ids=lambda f: f.stem)
+def test_a_benchmark_asked_for_help_measures_and_writes_nothing(file):
+    """Those that take a quarter of an hour and replace a file above all; others have no words."""
+    text = file.read_text(encoding="utf-8")
+    assert "__main__" not in text or "ArgumentParser(" in text or '"--help" in words' in text
+
+
 @pytest.mark.parametrize(
     "name", ["requirements.txt", "requirements-benchmark.txt", "requirements-docs.txt"]
 )

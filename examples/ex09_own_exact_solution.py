@@ -7,7 +7,9 @@ $$u = \max(x, 0)^3 - y \max(-x, 0)^3, \qquad f = -6 \max(x, 0) + 6 y \max(-x, 0)
 
 On the contact side $y = 0$ it is $\max(x, 0)^3 \ge 0$, and its flux
 $\partial_\nu u = -\partial_y u$ is $\max(-x, 0)^3 \ge 0$; one of the two is zero everywhere. So it
-solves the problem with the obstacle 0, and the origin is its critical point.
+solves the problem with the obstacle 0, and the origin is its critical point. The force vanishes
+there with the third power of the distance, so that the contact of the discrete solution ends early,
+in the picture about 0.1 to the left.
 
 Given as functions, $u$ comes with its gradient and its load. The library believes none of it: the
 gradient is held against differences of $u$, the load against differences of the gradient, data and

@@ -37,12 +37,15 @@ for n in (4, 8, 16, 32):
 def visualize(path=None):
     """Where the error of CR is: what each triangle adds to the square of the bound."""
     import matplotlib.pyplot as plt
+    from matplotlib.colors import LogNorm
 
     mesh = pressed(8, "CR").mesh
-    shares = found["CR", 8].contributions
+    squared = found["CR", 8].contributions
+    shares = squared / squared.sum()
     figure, axes = plt.subplots(figsize=(5, 4), layout="constrained")
-    picture = axes.tripcolor(*mesh.p, mesh.t.T, shares / shares.sum(), cmap="Blues")
-    figure.colorbar(picture, label="share of the squared bound")
+    scale = {"norm": LogNorm(1e-4, 1e-1), "cmap": plt.get_cmap("Blues", 12)}
+    picture = axes.tripcolor(*mesh.p, mesh.t.T, shares, **scale)
+    figure.colorbar(picture, label="share of the squared bound", extend="both")
     axes.set(aspect="equal", xlabel="$x$", ylabel="$y$", title="Where the error is")
     if path:
         figure.savefig(path)

@@ -31,6 +31,7 @@ MOST_BAR_TICKS = 7
 WIDTH = 0.8 * TEXT_WIDTH  # of the figure
 BOX = 2.9  # side of the square in which a domain must fit
 LEFT, BOTTOM, TOP = 0.62, 0.46, 0.25  # margins
+APART = 7  # points between the numbers of an upright label's axis and the label
 LEGEND, TITLE = 0.38, 0.24  # below and above them
 BAR, LEAST_BAR, BAR_GAP = 0.1, 1.0, 0.25  # width, least height, and distance from the domain
 
@@ -89,7 +90,8 @@ def _label(axes, frame):
     width, height = frame.fit(BOX)
     axes.set_xlabel(frame.label(0, "x") + ("" if frame.to_scale else ", not to scale"))
     name = frame.label(1, "y")
-    axes.set_ylabel(name, rotation=0 if name == "$y$" else 90)
+    upright = {"rotation": 0, "ha": "right", "labelpad": APART} if name == "$y$" else {}
+    axes.set_ylabel(name, **upright)
     tidy_ticks(axes.xaxis, width)
     tidy_ticks(axes.yaxis, height)
 

@@ -4,6 +4,7 @@ environment.
 This project has no environment manager: requirements.txt says what every rule needs.
 """
 
+import argparse
 import subprocess
 import sys
 
@@ -22,6 +23,7 @@ def findings(text):
 
 def main():
     """Print the findings."""
+    argparse.ArgumentParser(description=__doc__).parse_args()
     result = subprocess.run(
         [sys.executable, "-m", "snakemake", "--lint"], capture_output=True, text=True
     )

@@ -8,6 +8,7 @@ nobody, and have the time of the commit; of the record of the build the archive 
 tell a time. Results are in `expected`, so that `make paper` builds its own beside them.
 """
 
+import argparse
 import gzip
 import hashlib
 import io
@@ -108,11 +109,15 @@ def pack(path, entries, time):
 
 def main():
     """Pack, and write the checksum beside the archive."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folder", metavar="FOLDER", nargs="?", default=ROOT / "build/artifact")
+    folder = Path(parser.parse_args().folder)
     if git("status", "--porcelain", "--untracked-files=no"):
         sys.exit("error: the checkout differs from its commit; commit or stash, and run it again")
     with open(ROOT / "pyproject.toml", "rb") as stream:
         stem = f"signorini-{tomllib.load(stream)['project']['version']}"
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/artifact")
     time = int(git("log", "-1", "--format=%ct"))
     fetch_wheels(folder / "wheels", time)
     wheels = sorted((folder / "wheels").glob("*.whl"))

@@ -6,6 +6,7 @@ newest versions.
 Run it with the oldest Python supported: what it finds must install on all newer ones too.
 """
 
+import argparse
 import json
 import re
 import subprocess
@@ -72,6 +73,10 @@ def marker(name, found):
 
 def main():
     """Resolve, and write the file."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.parse_args()
     with open(ROOT / "pyproject.toml", "rb") as stream:
         direct = asked_for(tomllib.load(stream)["project"])
     found = installed(direct)

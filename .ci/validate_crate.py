@@ -8,6 +8,7 @@ for what the terms of a crate mean; here crate_terms.json answers, the address o
 those of its terms that our crates use. A term that is not there is not met, as it would be there.
 """
 
+import argparse
 import io
 import json
 import sys
@@ -63,8 +64,13 @@ def issues_of(crate, contexts):
         return validate(settings).get_issues(Severity.RECOMMENDED)
 
 
-def main(crate):
+def main():
     """Print each kind of issue with its count, and the verdict."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("crate", metavar="CRATE")
+    crate = parser.parse_args().crate
     issues = issues_of(crate, json.loads(TERMS.read_text(encoding="utf-8")))
     kinds = Counter((issue.severity, issue.check.identifier, issue.message) for issue in issues)
     for (severity, check, message), count in sorted(kinds.items()):
@@ -75,4 +81,4 @@ def main(crate):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main())

@@ -1,8 +1,11 @@
 """A solve shared by processes: seconds, memory and steps on one and two, beside our routes.
 
-usage: python benchmarks/petsc_processes.py [SCENE ELEMENT N]   needs `make petsc`; some minutes
+    python benchmarks/petsc_processes.py [SCENE ELEMENT N]
+
+It needs `make petsc`, and takes some minutes.
 """
 
+import argparse
 import json
 import os
 import resource
@@ -21,15 +24,20 @@ HEADINGS = "scene    element     n     dofs  route      processes  seconds  GB e
 FORMAT = "{:<8} {:<7} {:>5} {:>8}  {:<10} {:>9} {:>8.2f} {:>8.2f} {:>6}  {}"
 
 
-def main(words):
+def main():
     """Measure each case by PETSc on some processes, and by the route that `auto` would take."""
-    if "--help" in words:
-        print(__doc__)
-        return None
-    if words[:1] == ["--here"]:
-        return measure(*words[1:])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("case", nargs="*", help="SCENE ELEMENT N; default: four cases")
+    parser.add_argument("--here", nargs=4, help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.here:
+        return measure(*arguments.here)
+    if len(arguments.case) not in (0, 3):
+        parser.error("one case is SCENE ELEMENT N")
     print(HEADINGS)
-    cases = [tuple(words)] if words else CASES
+    cases = [tuple(arguments.case)] if arguments.case else CASES
     for scene, element, n in cases:
         runs = [("petsc", count) for count in COUNTS] + [("auto", 1), ("multigrid", 1)]
         for method, count in runs:
@@ -98,4 +106,4 @@ def _told(solution, dofs):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

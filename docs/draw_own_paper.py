@@ -6,8 +6,8 @@ It takes the PDF that the two lines of README's "Your own paper" build, and need
 poppler-utils). White margins are cut.
 """
 
+import argparse
 import subprocess
-import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -20,14 +20,16 @@ MARGIN = 12  # pixels of white that are left around the text
 COLOURS = 16
 
 
-def main(words):
+def main():
     """Draw the picture."""
-    if len(words) != 1 or words[0].startswith("-"):
-        print(__doc__)
-        return
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("paper", metavar="PDF")
+    paper = parser.parse_args().paper
     with TemporaryDirectory() as folder:
         page = Path(folder, "page")
-        options = ["-png", "-singlefile", "-gray", "-r", str(RESOLUTION), words[0], str(page)]
+        options = ["-png", "-singlefile", "-gray", "-r", str(RESOLUTION), paper, str(page)]
         subprocess.run(["pdftoppm", *options], check=True)
         picture = Image.open(page.with_suffix(".png"))
         cut(picture).quantize(COLOURS).save(PICTURE, optimize=True)
@@ -44,4 +46,4 @@ def cut(picture):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

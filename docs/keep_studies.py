@@ -1,11 +1,12 @@
 """Copy what the studies measured (pages, tables, pictures in results/studies) to docs/studies,
 where README.md links.
 
-    python docs/keep_studies.py
+    python docs/keep_studies.py [STUDY ...]
 
 Timings differ from run to run, so this is done by hand (`make studies`) and not checked.
 """
 
+import argparse
 import shutil
 import sys
 from pathlib import Path
@@ -15,11 +16,19 @@ BUILT, KEPT = ROOT / "results/studies", ROOT / "docs/studies"
 
 
 def main():
-    """Replace the kept files of every study that has been built."""
-    pages = sorted(BUILT.glob("*/*.md"))
+    """Replace the kept files of the studies that have been built, or of those named."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("studies", nargs="*", metavar="STUDY", help="default: all that were built")
+    names = parser.parse_args().studies
+    pages = {page.parent.name: page for page in sorted(BUILT.glob("*/*.md"))}
     if not pages:
         sys.exit("error: results/studies holds no page; run `make studies`")
-    for page in pages:
+    absent = sorted(set(names) - set(pages))
+    if absent:
+        sys.exit(f"error: not in results/studies: {', '.join(absent)}; there: {', '.join(pages)}")
+    for page in (pages[name] for name in names or pages):
         target = KEPT / page.parent.name
         shutil.rmtree(target, ignore_errors=True)
         target.mkdir(parents=True)

@@ -92,6 +92,21 @@ def test_a_failed_save_leaves_the_old_file_alone(tmp_path):
     assert target.read_text() == "old"
 
 
+def test_a_user_who_saves_a_figure_has_the_same_picture(figure, tmp_path):
+    """Matplotlib reads fonts when it draws: without the style their mathematics was sans serif."""
+    save_figure(figure, tmp_path / "ours.png")
+    figure.savefig(tmp_path / "theirs.png")
+    assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "theirs.png").read_bytes()
+
+
+def test_a_figure_is_a_picture_in_a_notebook(figure):
+    header = figure._repr_png_()[:24]
+    width, height = (int.from_bytes(header[at : at + 4], "big") for at in (16, 20))
+    inches = figure.get_size_inches()
+    assert header[1:4] == b"PNG"
+    assert [width, height] == pytest.approx(120 * inches, abs=1.0)
+
+
 @pytest.mark.parametrize(
     "name", [name for name in FIGURES if name != "gallery"]
 )  # which is for the screen

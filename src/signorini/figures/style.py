@@ -58,7 +58,36 @@ STYLE = {
 
 logging.getLogger("fontTools").setLevel(logging.ERROR)  # it warns of the age of cmr10
 
+_NOTEBOOK_DPI = 120
 FORMATS = {".pdf": {"CreationDate": None}, ".png": {}}
+
+
+class StyledFigure(Figure):
+    """A figure in the house style, whoever draws it: a program that saves it, a notebook.
+
+    Matplotlib reads some of a style, such as the font of mathematics, when it draws.
+
+    Examples
+    --------
+    >>> StyledFigure(figsize=(1, 1))._repr_png_()[1:4]
+    b'PNG'
+    """
+
+    def draw(self, renderer):
+        """Draw, as `matplotlib.figure.Figure.draw`."""
+        with matplotlib.rc_context(STYLE):
+            super().draw(renderer)
+
+    def savefig(self, fname, **options):
+        """Write to a file of any format, as `matplotlib.figure.Figure.savefig`."""
+        with matplotlib.rc_context(STYLE), readable_text():
+            super().savefig(fname, **options)
+
+    def _repr_png_(self):
+        """What a notebook shows, with or without pyplot."""
+        stream = io.BytesIO()
+        self.savefig(stream, format="png", dpi=_NOTEBOOK_DPI)
+        return stream.getvalue()
 
 
 def new_figure(width, height):
@@ -71,7 +100,7 @@ def new_figure(width, height):
 
     Returns
     -------
-    matplotlib.figure.Figure
+    StyledFigure
 
     Examples
     --------
@@ -80,7 +109,7 @@ def new_figure(width, height):
     [5.91, 1.97]
     """
     with matplotlib.rc_context(STYLE):
-        return Figure(figsize=(width, height), layout="none")
+        return StyledFigure(figsize=(width, height), layout="none")
 
 
 def add_axes(figure, left, bottom, width, height, **options):
@@ -117,7 +146,7 @@ def save_figure(figure, path, colours=None, sealed=True):
 
     Parameters
     ----------
-    figure : matplotlib.figure.Figure
+    figure : StyledFigure
         What to write.
     path : path-like
         Target, ending in ``.pdf`` or ``.png``; replaced in one step if it exists.
@@ -147,7 +176,7 @@ def save_figure(figure, path, colours=None, sealed=True):
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name}: unknown figure format; known: {', '.join(FORMATS)}")
     write = sealing if sealed else replacing
-    with matplotlib.rc_context(STYLE), readable_text(), write(path, "wb") as stream:
+    with write(path, "wb") as stream:
         if colours and path.suffix == ".png":
             _save_reduced(figure, stream, colours)
         else:
@@ -159,7 +188,7 @@ def reduced_png(figure, colours):
 
     Parameters
     ----------
-    figure : matplotlib.figure.Figure
+    figure : StyledFigure
     colours : int
         At most 256: the most frequent of its colours, which the others become.
 
@@ -174,8 +203,7 @@ def reduced_png(figure, colours):
     b'PNG'
     """
     stream = io.BytesIO()
-    with matplotlib.rc_context(STYLE):
-        _save_reduced(figure, stream, colours)
+    _save_reduced(figure, stream, colours)
     return stream.getvalue()
 
 

@@ -31,7 +31,7 @@ def saved(figure: "Figure", path: str | Path | None) -> "Figure":
     --------
     >>> saved(None, "figure.gif")
     Traceback (most recent call last):
-    signorini.exceptions.SceneError: path: 'figure.gif' is no figure; end it in .pdf or .png
+    signorini.exceptions.SceneError: path: 'figure.gif' is no figure; end it in .pdf or .png, or ...
     """
     if path is not None:
         from signorini.figures.style import FORMATS, save_figure
@@ -40,7 +40,8 @@ def saved(figure: "Figure", path: str | Path | None) -> "Figure":
             raise SceneError(f"path: {path!r:.60} is no path; give the name of a .pdf or .png file")
         if Path(path).suffix not in FORMATS:
             raise SceneError(
-                f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}"
+                f"path: {Path(path).name!r} is no figure; end it in {' or '.join(FORMATS)}, "
+                "or save what is returned, plot().savefig(...)"
             )
         save_figure(figure, path, sealed=False)
     return figure

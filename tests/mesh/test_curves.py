@@ -55,7 +55,7 @@ def test_newton_goes_along_the_gradient():
 
 def test_what_is_stored_is_read_again():
     for curve in (CIRCLE, ELLIPSE):
-        assert read_curve(curve.told) == curve
+        assert read_curve(curve.section) == curve
 
 
 @pytest.mark.parametrize(

@@ -69,10 +69,10 @@ class Record:
         sizes = np.array([marked.size for marked in self.marks], dtype=np.int64)
         bits = np.packbits(np.concatenate([np.zeros(0, dtype=bool), *self.marks]))
         facts = {"key": self.key, "name": self.name, "rows": self.rows, "seconds": self.seconds}
-        told = json.dumps(facts)
+        text = json.dumps(facts)
         write_csv(folder / "steps.csv", self.rows)
         write_csv(folder / "seconds.csv", self.seconds)
-        write_npz(folder / _FILE, _KIND, told=told, sizes=sizes, marks=bits)
+        write_npz(folder / _FILE, _KIND, told=text, sizes=sizes, marks=bits)
 
     @classmethod
     def read(cls, folder, key, name=""):
@@ -97,21 +97,21 @@ class Record:
         if not (folder / _FILE).exists():
             return cls(key, name)
         kept = read_npz(folder / _FILE, _KIND)
-        told = json.loads(str(kept["told"]))
-        if told["key"] != key:
-            told_of = _run_of(told, json.loads(key)[1])
+        facts = json.loads(str(kept["told"]))
+        if facts["key"] != key:
+            words = _run_of(facts, json.loads(key)[1])
             remedy = "name another folder, or --restart, which forgets it"
-            raise StorageError(f"{folder}: holds {told_of}; {remedy}")
+            raise StorageError(f"{folder}: holds {words}; {remedy}")
         flat = np.unpackbits(kept["marks"], count=int(kept["sizes"].sum())).astype(bool)
         ends = np.cumsum(kept["sizes"])
-        return cls(key, name, told["rows"], told["seconds"], np.split(flat, ends)[: ends.size])
+        return cls(key, name, facts["rows"], facts["seconds"], np.split(flat, ends)[: ends.size])
 
 
-def _run_of(told, chosen):
+def _run_of(facts, chosen):
     """Words for a run: its scene, and what was chosen otherwise than here."""
-    kept = json.loads(told["key"])[1]
+    kept = json.loads(facts["key"])[1]
     others = [f"{name} {value}" for name, value in kept.items() if chosen.get(name) != value]
-    name = told.get("name") or "another scene"
+    name = facts.get("name") or "another scene"
     return f"a run of {name}" + (f" with {', '.join(others)}" if others else "")
 
 

@@ -96,9 +96,9 @@ def run(arguments):
             record.write(folder)
             if step.mesh.number_of_triangles <= _DRAWN or step.number == 0:
                 write_picture(folder / "picture.npz", step)
-            _log.info("step %d: %s", step.number, _told(record.rows))
+            _log.info("step %d: %s", step.number, _summary(record.rows))
     write_solution_of(folder / "solution.npz", step)
-    return Outcome(f"{_told(record.rows)}; {step.reason}", record.rows)
+    return Outcome(f"{_summary(record.rows)}; {step.reason}", record.rows)
 
 
 def goal_of(scene, arguments):
@@ -145,7 +145,7 @@ def _check_start(statement, n, option):
         raise SceneError(f"{option}: {str(error).removeprefix('levels: ')}") from None
 
 
-def _told(rows):
+def _summary(rows):
     """The last step in one line."""
     last = rows[-1]["step"]
     parts = [

@@ -126,7 +126,7 @@ class Outcome:
 
 def commands():
     """Every command with what it does, a dict."""
-    return {name: told for section in CATALOGUE.values() for name, told in section.items()}
+    return {name: summary for section in CATALOGUE.values() for name, summary in section.items()}
 
 
 def module_of(command):

@@ -52,7 +52,7 @@ def run(arguments):
         )
     if arguments.output:
         write_level(arguments.output, level)
-    return Outcome("\n".join(map(_told, level.rows())), level.rows())
+    return Outcome("\n".join(map(_summary, level.rows())), level.rows())
 
 
 def _solve(scene, element, n):
@@ -61,7 +61,7 @@ def _solve(scene, element, n):
     return solve_level(scene, element, n)
 
 
-def _told(row):
+def _summary(row):
     return (
         f"{row['element']} n = {row['n']}: the energy error lies in "
         f"[{row['lower']:.6g}, {row['upper']:.6g}]"

@@ -52,12 +52,12 @@ def run(arguments):
         try:
             for step in approach(partial(_certified, scene, elements), first, elements, goal):
                 steps.append(step)
-                _log.info(_told(step, elements))
+                _log.info(_summary(step, elements))
         except MeshError as error:
             if not steps:
                 raise
             raise MeshError(f"--bound {goal:g}: {_why(steps, elements, goal)}; {error}") from None
-    lines = [_told(step, elements) for step in steps]
+    lines = [_summary(step, elements) for step in steps]
     rows = [row | {"seconds": step.seconds} for step in steps for row in step.level.rows()]
     return Outcome("\n".join(lines), rows)
 
@@ -78,7 +78,7 @@ def _certified(scene, elements, n):
     )
 
 
-def _told(step, elements):
+def _summary(step, elements):
     rows = [row for row in step.level.rows() if row["element"] in elements]
     intervals = ", ".join(
         f"{row['element']} in [{row['lower']:.6g}, {row['upper']:.6g}] with {row['dofs']} dofs"

@@ -56,7 +56,7 @@ def run(arguments):
         details = details_of(scene, domain, solutions, reference, certificate)
     write_npz(arguments.output, kind="details", **details)
     level = f"level {solutions[0].n}, {details['t'].shape[1]} triangles"
-    return Outcome(f"details: {level}: {', '.join(_told(details))}")
+    return Outcome(f"details: {level}: {', '.join(_summary(details))}")
 
 
 def _solutions(scene, paths):
@@ -81,7 +81,7 @@ def _check_level(domain, solutions, certificate):
         mesh_of(domain, solution)
 
 
-def _told(details):
+def _summary(details):
     """What there is beside the mesh."""
     kinds = ("error", "bound", "jump")
     return ["mesh"] + [kind for kind in kinds if any(name.startswith(kind) for name in details)]

@@ -59,7 +59,7 @@ def run(arguments):
         _check_positive(option, getattr(arguments, option))
     scene, cores = scene_of(arguments.scene), arguments.cores or os.cpu_count() or 1
     data = _forecast(scene, cores, arguments.sweep_jobs)
-    lines = _told(scene, data)
+    lines = _summary(scene, data)
     if arguments.sample:
         data["sample"] = _sampled(scene, arguments.sample)
         lines.append(_told_sample(data["sample"]))
@@ -91,7 +91,7 @@ def _forecast(scene, cores, most):
     }
 
 
-def _told(scene, data):
+def _summary(scene, data):
     """The lines of a forecast."""
     largest = max(row["memory"] for row in data["rules"])
     total = data | {"rule": "sum", "memory": largest}

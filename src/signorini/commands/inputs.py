@@ -59,8 +59,8 @@ def make_folder(path):
         there = next(each for each in (path, *path.parents) if os.path.lexists(each))
         raise SceneError(f"{there} is a file; name a folder") from None
     except OSError as error:
-        told = f"cannot be made ({error.strerror}); name another folder"
-        raise SceneError(f"{path}: {told}") from None
+        reason = f"cannot be made ({error.strerror}); name another folder"
+        raise SceneError(f"{path}: {reason}") from None
     if not os.access(path, os.W_OK | os.X_OK):
         raise SceneError(f"{path}: nothing can be written there; name another folder")
 

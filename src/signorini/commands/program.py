@@ -52,8 +52,8 @@ def overview():
     lines = ["usage: signorini COMMAND ...", "", __package_summary(), ""]
     width = max(map(len, commands()))
     for heading, section in CATALOGUE.items():
-        lines += [f"{heading}:", *(f"  {name:<{width}}  {told}" for name, told in section.items())]
-        lines.append("")
+        listing = [f"  {name:<{width}}  {summary}" for name, summary in section.items()]
+        lines += [f"{heading}:", *listing, ""]
     lines.append("signorini COMMAND --help explains a command and shows an example.")
     return "\n".join(lines)
 
@@ -71,8 +71,8 @@ def _split(words):
             return command, words[count:]
     parts = [name for name in known if name.startswith(f"{words[0]} ")]
     if parts and (len(words) == 1 or words[1] in ("-h", "--help")):
-        told = "\n".join(f"  {name:<{max(map(len, parts))}}  {known[name]}" for name in parts)
-        _print(f"usage: signorini {words[0]} PART ...\n\n{told}")
+        listing = "\n".join(f"  {name:<{max(map(len, parts))}}  {known[name]}" for name in parts)
+        _print(f"usage: signorini {words[0]} PART ...\n\n{listing}")
         sys.exit(0 if len(words) > 1 else MISTAKE)
     wrong = " ".join(words[:2]) if parts else words[0]
     print(f"error: signorini {wrong}: no such command; {nearest(wrong, known)}", file=sys.stderr)
@@ -133,11 +133,11 @@ def _run(module, arguments):
     gc.freeze()
     if outcome is None:  # another process tells it
         return 0
-    _print(_told(outcome, arguments.json, time.perf_counter() - start))
+    _print(_summary(outcome, arguments.json, time.perf_counter() - start))
     return int(outcome.failed)
 
 
-def _told(outcome, as_json, seconds):
+def _summary(outcome, as_json, seconds):
     if as_json:
         return json.dumps({"text": outcome.text} if outcome.data is None else outcome.data)
     if "\n" in outcome.text:

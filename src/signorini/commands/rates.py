@@ -27,9 +27,9 @@ def run(arguments):
     if arguments.output:
         write_csv(arguments.output, rows)
         return Outcome(f"rates: {len(rows)} slopes", rows)
-    return Outcome("\n".join(map(_told, rows)), rows)
+    return Outcome("\n".join(map(_summary, rows)), rows)
 
 
-def _told(row):
+def _summary(row):
     slope = "no slope" if row["slope"] is None else f"{row['slope']:.3f}"
     return f"{row['element']:<3} {row['norm']:<16} {row['kind']:<5} {slope}"

@@ -29,12 +29,13 @@ def run(arguments):
     paths = sorted(arguments.folder.glob("*.yaml"))
     if not paths:
         raise SceneError(f"{arguments.folder}: no scene there; name a folder that has .yaml files")
-    told = {path.stem: _told(path) for path in paths}
-    width = max(map(len, told))
-    return Outcome("\n".join(f"{name:<{width}}  {line}" for name, line in told.items()), told)
+    summaries = {path.stem: _summary(path) for path in paths}
+    width = max(map(len, summaries))
+    lines = [f"{name:<{width}}  {summary}" for name, summary in summaries.items()]
+    return Outcome("\n".join(lines), summaries)
 
 
-def _told(path):
+def _summary(path):
     try:
         scene = read_scene(path)
     except SignoriniError as error:

@@ -49,10 +49,10 @@ def _shown(path):
 
 def _arrays(path):
     values = read_npz(path, _kind(path))
-    told = {name: _described(value) for name, value in values.items()}
-    width = max(map(len, told))
-    lines = [f"{name:<{width}}  {text}" for name, text in told.items()]
-    return Outcome("\n".join([f"{path}: a {_kind(path)}", *lines]), {"kind": _kind(path)} | told)
+    texts = {name: _described(value) for name, value in values.items()}
+    width = max(map(len, texts))
+    lines = [f"{name:<{width}}  {text}" for name, text in texts.items()]
+    return Outcome("\n".join([f"{path}: a {_kind(path)}", *lines]), {"kind": _kind(path)} | texts)
 
 
 def _kind(path):

@@ -85,7 +85,7 @@ def run(arguments):
     if arguments.output:
         write_solution(arguments.output, problem, solution, n, domain.mesh_size(n))
     dofs = problem.free.size
-    return Outcome(_told(solution, dofs, element, n), _data(solution, dofs, element, n))
+    return Outcome(_summary(solution, dofs, element, n), _data(solution, dofs, element, n))
 
 
 def _solve_together(comm, scene, domain, element, n, output):
@@ -105,7 +105,7 @@ def _solve_together(comm, scene, domain, element, n, output):
     if comm.rank:
         return None
     dofs = solution.dofs
-    return Outcome(_told(solution, dofs, element, n), _data(solution, dofs, element, n))
+    return Outcome(_summary(solution, dofs, element, n), _data(solution, dofs, element, n))
 
 
 def _level(scene, arguments):
@@ -121,7 +121,7 @@ def _level(scene, arguments):
     return arguments.element, arguments.n
 
 
-def _told(solution, dofs, element, n):
+def _summary(solution, dofs, element, n):
     return (
         f"{element} n = {n}: {dofs} free dofs, {solution.status}, "
         f"KKT residual {solution.residual:.1e}, relative error of u {solution.accuracy:.1e} and of "

@@ -55,14 +55,15 @@ def run(arguments):
     library = content_of("sweep-points")
     points = sweep_points(scene.document["sweep"])
     new = [point.name for point in points if not is_known(scene, point, folder / "sweep", library)]
-    told = f"{scene.name}: {len(points)} points, {len(new)} to solve"
+    summary = f"{scene.name}: {len(points)} points, {len(new)} to solve"
     if arguments.dry_run:
         more = [f"... and {len(new) - _SHOWN} more"] if len(new) > _SHOWN else []
-        return Outcome("\n".join([told, *new[:_SHOWN], *more]), {"points": len(points), "new": new})
+        text = "\n".join([summary, *new[:_SHOWN], *more])
+        return Outcome(text, {"points": len(points), "new": new})
     make_folder(folder)
     (ordered,) = bundles(scene.document["sweep"], most=1)
     job = points_job(scene, [point for point in ordered if point.name in {*new}])
-    print(f"{told}, about {job.seconds:.1f} s of processor time", file=sys.stderr)
+    print(f"{summary}, about {job.seconds:.1f} s of processor time", file=sys.stderr)
     return _written(scene, points, ordered, folder, library)
 
 

@@ -68,5 +68,5 @@ def write_tables(scene, records, table, summary_csv, summary_markdown):
     write_text(summary_csv, frame.to_csv(index=False, lineterminator="\n"))
     write_text(summary_markdown, as_markdown(frame))
     failed = failures(records)
-    told = f"{scene.name}: {len(records)} points, {len(rows)} rows, {len(failed)} points failed"
-    return Outcome("\n".join([told, *failed]), {"points": len(records), "failed": failed})
+    counts = f"{scene.name}: {len(records)} points, {len(rows)} rows, {len(failed)} points failed"
+    return Outcome("\n".join([counts, *failed]), {"points": len(records), "failed": failed})

@@ -55,9 +55,9 @@ def run(arguments):
     path = Path(arguments.check)
     if path.is_dir():
         _refuse_within(path, arguments.output)
-        outcome = _told(_judged(path, arguments.against, arguments.published))
+        outcome = _summary(_judged(path, arguments.against, arguments.published))
     elif path.name.lower().endswith(_ARCHIVES):
-        outcome = _told(_of_archive(path, arguments.against, arguments.published))
+        outcome = _summary(_of_archive(path, arguments.against, arguments.published))
     else:
         outcome = Outcome(verdict(_rows(path), path))
     if arguments.output:
@@ -106,7 +106,7 @@ class Judgement:
         return replace(self, name=self.name.replace(old, new), findings=findings, told=told)
 
 
-def _told(judgement):
+def _summary(judgement):
     """The outcome: a line for each finding, and what was met."""
     count = len(judgement.findings)
     summary = f"{count} findings" if count else "as its record says"

@@ -238,7 +238,7 @@ def error_row(solution, errors):
     >>> row["element"], row["n"], row["l2"], row["status"]
     ('P1', 8, 0.5, 'solved')
     """
-    what = {
+    identity = {
         "element": solution.element,
         "n": solution.n,
         "h": solution.h,
@@ -255,4 +255,4 @@ def error_row(solution, errors):
         "iterations": solution.iterations,
         "method": solution.method,
     }
-    return what | errors(solution) | proof | how
+    return identity | errors(solution) | proof | how

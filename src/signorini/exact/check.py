@@ -82,11 +82,11 @@ def _check_contact(exact, data, points, u_size, slope, tolerance):
     for condition, excess in zip(_conditions(data), violations, strict=True):
         if excess.size and excess.max() > tolerance:
             k = int(excess.argmax())
-            told = f", contact_flux = {threshold[k]:.6g}" if _has_threshold(data) else ""
+            shown_threshold = f", contact_flux = {threshold[k]:.6g}" if _has_threshold(data) else ""
             raise SceneError(
                 f"truth: the exact solution fails {condition} on the contact side at (x, y) = "
                 f"({x[k]:.6g}, {y[k]:.6g}): u = {u[k]:.6g}, obstacle = {alpha[k]:.6g}, "
-                f"du/dnu = {flux[k]:.6g}{told}; change truth, obstacle or boundary"
+                f"du/dnu = {flux[k]:.6g}{shown_threshold}; change truth, obstacle or boundary"
             )
 
 

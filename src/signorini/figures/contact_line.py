@@ -149,9 +149,9 @@ def _name_resultants(axes, forces):
     values = {name: force / 10.0**exponent for name, force in forces.items()}
     largest = max(abs(value) for value in values.values())
     decimals = 4 - math.floor(math.log10(largest)) if largest else 0
-    told = [f"{name} ${value:z.{max(decimals, 0)}f}$" for name, value in values.items()]
+    texts = [f"{name} ${value:z.{max(decimals, 0)}f}$" for name, value in values.items()]
     title = with_unit("resultant", exponent)
-    axes.set_title(f"{title}: {', '.join(told)}", loc="right", fontsize=8)
+    axes.set_title(f"{title}: {', '.join(texts)}", loc="right", fontsize=8)
 
 
 def _set_limits(panels, lines):

@@ -140,8 +140,8 @@ def draw_ratios(rows):
         _fill_ratios(axes, table, colours)
         axes.set_title(f"load: {load}", fontsize=8, pad=13)
         _name_levels(axes, levels)
-    told = "below 1, blue, NCF has the smaller, above 1, brown, CF"
-    _draw_scale(figure, colours, f"$L^2$ error of NCF relative to CF: {told}")
+    meaning = "below 1, blue, NCF has the smaller, above 1, brown, CF"
+    _draw_scale(figure, colours, f"$L^2$ error of NCF relative to CF: {meaning}")
     return figure
 
 

@@ -69,8 +69,8 @@ def instance(family, load, element, seed):
 
 
 def _problem(mesh, element, coefficient, **data):
-    told = statement(data | {"coefficient": coefficient}, quadrature="midpoints")
-    return discretize_on(mesh, element, told)
+    stated = statement(data | {"coefficient": coefficient}, quadrature="midpoints")
+    return discretize_on(mesh, element, stated)
 
 
 def _white(rng, mesh, element, coefficient):

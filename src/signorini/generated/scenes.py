@@ -64,7 +64,7 @@ def problems(draw):
     data["dirichlet"] = f"abs({data['obstacle']}) + abs({draw(formulas())})"
     mapping = {"domain": domain, "boundary": by_side(labels), "data": data}
     mapping["load_quadrature"] = draw(_QUADRATURES)
-    told = ProblemStatement.from_mapping(mapping)
-    problem = discretize(told, draw(st.sampled_from(ELEMENT_NAMES)), draw(st.integers(1, 6)))
+    statement = ProblemStatement.from_mapping(mapping)
+    problem = discretize(statement, draw(st.sampled_from(ELEMENT_NAMES)), draw(st.integers(1, 6)))
     assume(problem.contact.size)
     return problem

@@ -78,13 +78,13 @@ class Circle:
         return away / distance
 
     @property
-    def told(self):
+    def section(self):
         """What can be stored, and read by `read_curve`.
 
         Examples
         --------
         >>> circle = Circle((0.0, 0.0), 2.0)
-        >>> read_curve(circle.told) == circle
+        >>> read_curve(circle.section) == circle
         True
         """
         return {"center": list(self.center), "radius": self.radius}
@@ -157,12 +157,12 @@ class LevelSet:
         return gradient / np.hypot(*gradient)
 
     @property
-    def told(self):
+    def section(self):
         """What can be stored, and read by `read_curve`.
 
         Examples
         --------
-        >>> LevelSet(Formula("x**2 + y**2 - 1")).told
+        >>> LevelSet(Formula("x**2 + y**2 - 1")).section
         'x**2 + y**2 - 1'
         """
         return self.phi.text

@@ -146,7 +146,7 @@ def write_domain(path, domain):
         "subdomains": list(root.subdomains),
     }
     if root.curves:
-        curves = {name: curve.told for name, curve in root.curves.items()}
+        curves = {name: curve.section for name, curve in root.curves.items()}
         specification["curves"] = curves
     subdomains = {f"subdomain_{k}": cells for k, cells in enumerate(root.subdomains.values())}
     write_npz(

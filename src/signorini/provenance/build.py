@@ -59,7 +59,7 @@ def describe_build(project, results, state=COMPLETE, failed=(), asked=(), cores=
         "source": source_of(project),
         "machine": describe(pinned(project) or OURS) | {"cores_given": cores},
         "results": results,
-        "jobs": [_told(job, outdated) for job in jobs],
+        "jobs": [_job(job, outdated) for job in jobs],
         "inputs": inputs,
         "products": _products(project, results, jobs),
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -70,9 +70,9 @@ def _of(results, job):
     return any(path.startswith(f"{results}/") for path in job.outputs)
 
 
-def _told(job, outdated):
+def _job(job, outdated):
     """A job, for JSON: the files of the library are many, and told all together."""
-    library = {path: told for path, told in job.inputs.items() if path.startswith(LIBRARY)}
+    library = {path: digest for path, digest in job.inputs.items() if path.startswith(LIBRARY)}
     return {
         "rule": job.rule,
         "command": job.command,
@@ -101,10 +101,10 @@ def _inputs(project, results, jobs):
         if not path.startswith(f"{results}/") and (found[path] or (project / path).is_file())
     }
     outdated = {
-        (path, told)
+        (path, digest)
         for job in jobs
-        for path, told in job.inputs.items()
-        if told and found[path] not in (None, told) and not _is_scene(path)
+        for path, digest in job.inputs.items()
+        if digest and found[path] not in (None, digest) and not _is_scene(path)
     }
     return inputs, outdated
 
@@ -167,7 +167,7 @@ def timeless(record):
         _without(job, "started", "seconds") | {"outputs": [*job["outputs"]]}
         for job in record["jobs"]
     ]
-    products = {path: _without(told, "stamp") for path, told in record["products"].items()}
+    products = {path: _without(product, "stamp") for path, product in record["products"].items()}
     machine = _without(record["machine"], "load", "date")
     kept = _without(record, "written", "asked")
     return kept | {"jobs": jobs, "products": products, "machine": machine}

@@ -98,9 +98,9 @@ def article(citation, source):
         )
     found = articles[0]
     names = [_name(author) for author in found["authors"]]
-    told = {"title": found["title"], "authors": [{"name": name} for name in names]}
+    parts = {"title": found["title"], "authors": [{"name": name} for name in names]}
     reference = found.get("doi") and f"https://doi.org/{found['doi']}"
-    return told | {"reference": reference or _printed(found)}
+    return parts | {"reference": reference or _printed(found)}
 
 
 def _name(author):
@@ -144,11 +144,11 @@ def codecheck_text(document, rows, citation, folder, source="CITATION.cff"):
     import yaml
 
     found = verdict(rows, f"{folder}/check.csv")
-    told = {
+    parts = {
         "version": VERSION,
         "manifest": manifest(document, folder),
         "paper": article(citation, source),
         "summary": f"What the build itself found, before any codechecker: {found}",
     }
-    body = yaml.safe_dump(told, sort_keys=False, allow_unicode=True, width=100)
+    body = yaml.safe_dump(parts, sort_keys=False, allow_unicode=True, width=100)
     return _HEAD.format(", ".join(OPEN)) + body

@@ -108,11 +108,11 @@ def build_crate(project, record, about, agent=None):
     return crate
 
 
-def _agent(told):
+def _agent(agent):
     """The name and the address, or None in its place, of who started the run."""
-    found = _AGENT.fullmatch(told)
+    found = _AGENT.fullmatch(agent)
     if not found:
-        raise StorageError(f"agent: {cut(told)!r} is no name; write NAME or 'NAME <https://...>'")
+        raise StorageError(f"agent: {cut(agent)!r} is no name; write NAME or 'NAME <https://...>'")
     return found.groups()
 
 
@@ -126,7 +126,7 @@ def _name_agent(crate, actions, name, address):
 
 def _files(crate, project, record, workflow):
     """Path -> entity of every file, once each is known to be that of the record."""
-    products = {path: told["sha256"] for path, told in record["products"].items()}
+    products = {path: product["sha256"] for path, product in record["products"].items()}
     used = products.keys() | {path for job in record["jobs"] for path in job.get("reads", ())}
     files = {}
     for path, digest in (record["inputs"] | products).items():
@@ -204,13 +204,13 @@ def _license(crate, name):
     return entity(crate, address, "CreativeWork", name=name, url=address)
 
 
-def _author(crate, place, told):
+def _author(crate, place, author):
     """An author of the citation file: a person, or a group with one name."""
-    names = [told.get("given-names"), told.get("family-names")]
+    names = [author.get("given-names"), author.get("family-names")]
     person = " ".join(filter(None, names))
     kind = "Person" if person else "Organization"
-    name = person or told.get("name", "unknown")
-    return entity(crate, told.get("orcid", f"#author-{place}"), kind, name=name)
+    name = person or author.get("name", "unknown")
+    return entity(crate, author.get("orcid", f"#author-{place}"), kind, name=name)
 
 
 def _profile(crate, address, name):

@@ -172,8 +172,9 @@ def parse_json(content, source):
     try:
         return json.loads(content, object_pairs_hook=_once, parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
-        told = cut(printable(str(error)), 100)
-        raise StorageError(f"{source}: not JSON ({told}); it says nothing of the results") from None
+        reason = cut(printable(str(error)), 100)
+        problem = f"not JSON ({reason}); it says nothing of the results"
+        raise StorageError(f"{source}: {problem}") from None
 
 
 def _once(pairs):

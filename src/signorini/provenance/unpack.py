@@ -29,8 +29,8 @@ class _Entry(tarfile.TarInfo):
 
     def _proc_member(self, archive):  # which subclasses may override, tarfile says
         if self.type in _NAMING and self.size > MOST_NAMED:
-            told = f"an entry has a header of {self.size} bytes"
-            raise StorageError(f"{archive.name}: {told}; do not trust it")
+            reason = f"an entry has a header of {self.size} bytes"
+            raise StorageError(f"{archive.name}: {reason}; do not trust it")
         return super()._proc_member(archive)
 
 

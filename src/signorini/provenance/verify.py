@@ -95,9 +95,9 @@ def _parsed(path):
     results, products = record.get("results"), record.get("products")
     if not (isinstance(results, str) and isinstance(products, dict)):
         raise StorageError(f"{path}: no products; `signorini provenance` writes them")
-    for name, told in products.items():
+    for name, product in products.items():
         check_inside(name, path)
-        digest = told.get("sha256") if isinstance(told, dict) else None
+        digest = product.get("sha256") if isinstance(product, dict) else None
         if not (isinstance(digest, str) and _SHA256.fullmatch(digest)):
             raise StorageError(f"{path}: {name}: no SHA-256; `signorini provenance` writes it")
     if not _tells_a_run(record):
@@ -140,8 +140,8 @@ def check_files(folder, record, below=""):
     """
     start = f"{record['results']}/{below}"
     wanted = {
-        path.removeprefix(start): told
-        for path, told in record["products"].items()
+        path.removeprefix(start): product
+        for path, product in record["products"].items()
         if path.startswith(start)
     }
     files, refused = walk(folder)
@@ -166,11 +166,11 @@ def _scenes_alone(there):
     return {f"{name}/scene.json" for name, count in files.items() if count == 1}
 
 
-def _held(folder, path, told):
+def _held(folder, path, product):
     """What is wrong with a file; one of another size is not read, however large it is."""
-    size, wanted = (folder / path).lstat().st_size, told["sha256"]
-    if size != told.get("bytes", size):
-        return [Finding("changed", path, f"{size} bytes, not {told['bytes']}")]
+    size, wanted = (folder / path).lstat().st_size, product["sha256"]
+    if size != product.get("bytes", size):
+        return [Finding("changed", path, f"{size} bytes, not {product['bytes']}")]
     digest = digest_of(folder / path)
     if digest != wanted:
         return [Finding("changed", path, f"its SHA-256 is {digest[:12]}..., not {wanted[:12]}...")]
@@ -234,8 +234,8 @@ def check_numbers(folder, published=None, root="."):
     except SignoriniError as error:
         return [Finding("not checked", str(folder), str(error))], ""
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        told = f"scene.json has not the form of a scene ({type(error).__name__}: {error})"
-        return [Finding("not checked", str(folder), told)], ""
+        reason = f"scene.json has not the form of a scene ({type(error).__name__}: {error})"
+        return [Finding("not checked", str(folder), reason)], ""
     found = [
         Finding("not met", row["cell"], f"published {row['published']}, computed {row['computed']}")
         for row in rows

@@ -60,8 +60,8 @@ def check_inputs(folder, record):
     return [found for path in sorted(inputs) for found in _held(folder, path, inputs[path])]
 
 
-def _is_digest(told):
-    return isinstance(told, str) and _SHA256.fullmatch(told)
+def _is_digest(value):
+    return isinstance(value, str) and _SHA256.fullmatch(value)
 
 
 def _held(folder, path, wanted):
@@ -72,8 +72,8 @@ def _held(folder, path, wanted):
         found = digest_of(place)
     except StorageError as error:
         return [Finding(REFUSED, path, str(error))]
-    told = f"its SHA-256 is {found[:12]}..., the build read {wanted[:12]}..."
-    return [] if found == wanted else [Finding("changed", path, told)]
+    difference = f"its SHA-256 is {found[:12]}..., the build read {wanted[:12]}..."
+    return [] if found == wanted else [Finding("changed", path, difference)]
 
 
 def check_sum(archive):

@@ -81,8 +81,8 @@ def _complaint(use, scene, declared):
     if tables_of_use(use, declared):
         return None
     remedy = nearest_key(use.key, declared)
-    told = f"the scene {scene.name} has no such number"
-    return f"{use.place}: \\result{{{use.key}}}: {told}; {remedy}"
+    reason = f"the scene {scene.name} has no such number"
+    return f"{use.place}: \\result{{{use.key}}}: {reason}; {remedy}"
 
 
 def _check_own_files(manuscript, made):

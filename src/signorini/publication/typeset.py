@@ -152,9 +152,9 @@ def _complaint(log, source):
         file, line, said = error.groups()
         earlier = fatal and fatal.start() < error.start()  # which has no line of its own
         said = fatal[1] if earlier else f"{said}{_culprit(log, error.end(), said)}"
-        return _told(source.parent / file, line, said)
+        return _message(source.parent / file, line, said)
     if fatal:
-        return _told(source, None, fatal[1])
+        return _message(source, None, fatal[1])
     warning = _WARNING.search(log)
     return _of_line(warning, source) if warning else None
 
@@ -162,7 +162,7 @@ def _complaint(log, source):
 def _of_line(warning, source):
     """A warning that tells its line itself."""
     line = _LINE.search(warning[0])
-    return _told(source, line and line[1], warning[0].strip())
+    return _message(source, line and line[1], warning[0].strip())
 
 
 def _culprit(log, start, said):
@@ -173,7 +173,7 @@ def _culprit(log, start, said):
     return f" {shown[1]}" if shown else ""
 
 
-def _told(path, line, said):
+def _message(path, line, said):
     place = f"{path}:{line}" if line else f"{path}"
     said = _NAME.sub("", said).rstrip(" .")
     return f"{place}: LaTeX: {cut(said, 200)}; {_remedy(said)}"
@@ -188,4 +188,4 @@ def _remedy(said):
 def _last_words(result, source):
     """Where LaTeX has no words, the end of what latexmk says."""
     said = result.stderr.decode(errors="replace").strip()[-300:] or "failed without a message"
-    return _told(source, None, said)
+    return _message(source, None, said)

@@ -91,9 +91,9 @@ def differences(lines):
     >>> differences(finest_lines(plain, ["P1", "CR"]))[1]
     {'CR': array([0.25])}
     """
-    for truth, told in _TRUTHS.items():
+    for truth, description in _TRUTHS.items():
         if all(np.isfinite(line[truth]).any() for line in lines.values()):
-            return told, {name: line["u"] - line[truth] for name, line in lines.items()}
+            return description, {name: line["u"] - line[truth] for name, line in lines.items()}
     if not {"P1", "CR"} <= set(lines) or lines["P1"]["n"] != lines["CR"]["n"]:
         return None, {}
     p1, cr = lines["P1"], lines["CR"]

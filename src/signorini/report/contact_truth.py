@@ -69,11 +69,12 @@ def with_reference(rows, mesh, reference):
     nodes = find_element(reference.element).nodes(mesh, reference.contact)
     nearest = _nearest(np.stack(_places(rows)), nodes)
     values = reference.u[reference.contact][nearest]
-    told = [None if missing else float(u) for missing, u in zip(nearest < 0, values, strict=True)]
+    pairs = zip(nearest < 0, values, strict=True)
+    nearest_values = [None if missing else float(u) for missing, u in pairs]
     resultant = float(reference.force.sum())
     return [
         row | {"reference": value, "true_resultant": resultant}
-        for row, value in zip(rows, told, strict=True)
+        for row, value in zip(rows, nearest_values, strict=True)
     ]
 
 

@@ -79,8 +79,8 @@ def _slopes(scene, rates):
     for norm in scene.document["norms"]:
         slopes = slopes_of(rates, norm, scene.document["slope"])
         if slopes:
-            told = {element: f"{float(slope):.2f}" for element, slope in slopes.items()}
-            found[NORMS[norm].text] = [told.get(element, "–") for element in scene.elements]
+            shown = {element: f"{float(slope):.2f}" for element, slope in slopes.items()}
+            found[NORMS[norm].text] = [shown.get(element, "–") for element in scene.elements]
     return found
 
 

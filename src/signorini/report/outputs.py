@@ -38,11 +38,11 @@ def output_rows(problem, solution, quantities):
     >>> output_rows(problem, solution, {"width": {"kind": "contact_length"}})[0]["value"]
     1.21875
     """
-    what = {"element": solution.element, "n": solution.n, "h": solution.h}
+    identity = {"element": solution.element, "n": solution.n, "h": solution.h}
     rows = []
     for name, asked in quantities.items():
         value = _value(problem, solution, asked)
-        rows.append(what | {"name": name, "value": value, "unit": asked.get("unit", "")})
+        rows.append(identity | {"name": name, "value": value, "unit": asked.get("unit", "")})
     return rows
 
 

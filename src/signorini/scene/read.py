@@ -150,15 +150,16 @@ def scene_of_point(scene, point):
     >>> from signorini.scene.sweep import sweep_points
     >>> scene = read_scene("config/scenes/punch-widths.yaml")
     >>> point = sweep_points(scene.document["sweep"])[0]
-    >>> point.told, scene_of_point(scene, point).levels == scene.levels
+    >>> point.description, scene_of_point(scene, point).levels == scene.levels
     ('truth.parameters.half_width = 0.1', True)
     """
     written = with_values(scene.written, point.values)
     try:
         return _validated_scene(written, scene.name, scene.source)
     except SignoriniError as error:
-        told = str(error).removeprefix(f"{scene.source}: ")
-        raise type(error)(f"{scene.source}: at {point.told} of the sweep: {told}") from None
+        problem = str(error).removeprefix(f"{scene.source}: ")
+        place = f"{scene.source}: at {point.description} of the sweep"
+        raise type(error)(f"{place}: {problem}") from None
 
 
 def check_points(scene):

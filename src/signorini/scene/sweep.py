@@ -40,12 +40,12 @@ class Point:
     values: dict
 
     @property
-    def told(self):
+    def description(self):
         """The values as messages tell them.
 
         Examples
         --------
-        >>> Point("half_width=0.5", {"truth.parameters.half_width": 0.5}).told
+        >>> Point("half_width=0.5", {"truth.parameters.half_width": 0.5}).description
         'truth.parameters.half_width = 0.5'
         """
         return ", ".join(f"{key} = {shown(value)}" for key, value in self.values.items())

@@ -133,21 +133,21 @@ def _solve_or_fall_back(problem, guess, method, reason, wanted):
     """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
     finds.
     """
-    told = reason
+    why = reason
     if wanted == "discretisation" and method == "multigrid":
         rough = _solve_roughly(problem, guess)
         if rough is not None:
             return rough, method, reason
-        told = f"{reason}; its discretisation error cannot be told"
+        why = f"{reason}; its discretisation error cannot be told"
     try:
-        return _run_route(problem, method, guess), method, told
+        return _run_route(problem, method, guess), method, why
     except SolverError as error:
         larger = not fits(
             problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
         )
         if method != "multigrid" or reason == REQUESTED or larger:
             raise
-        return _run_route(problem, "direct", guess), "direct", f"{told}; but {error}"
+        return _run_route(problem, "direct", guess), "direct", f"{why}; but {error}"
 
 
 def _solve_roughly(problem, guess):

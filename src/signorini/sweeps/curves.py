@@ -78,13 +78,13 @@ def _panel(name, rows, key, others, places):
         x, y = series.setdefault((row["element"], variant), ([], []))
         x.append(places[str(row[key])])
         y.append(float(row[name]))
-    told = []
+    curves = []
     for (element, variant), (x, y) in series.items():
         order = sorted(range(len(x)), key=x.__getitem__)
         x, y = [x[k] for k in order], [y[k] for k in order]
-        told.append({"element": element, "variant": variant, "x": x, "y": y})
+        curves.append({"element": element, "variant": variant, "x": x, "y": y})
     label = NORMS[name].axis if name in NORMS else LABELS.get(name, name.removeprefix(_QUANTITY))
-    return {"label": label, "log": name in NORMS and _spans_a_decade(told), "series": told}
+    return {"label": label, "log": name in NORMS and _spans_a_decade(curves), "series": curves}
 
 
 def _spans_a_decade(series):

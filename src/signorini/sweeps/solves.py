@@ -66,12 +66,12 @@ class Solver:
             before = None
             for n in scene.levels:
                 problem, solution = solved(element, n)
-                told = error_row(solution, errors)
+                row = error_row(solution, errors)
                 contact = contact_quantities(domain.level(n), solution)
                 asked = output_rows(problem, solution, scene.document["quantities"])
                 named = {f"{QUANTITY}{found['name']}": found["value"] for found in asked}
-                yield told | _rates(before, told) | contact | named
-                before = told
+                yield row | _rates(before, row) | contact | named
+                before = row
 
     def _domain_of(self, scene):
         """The domain of a scene: that of the scene before where it is the same."""

@@ -48,13 +48,13 @@ def summary(rows):
     if not len(solved):
         return pd.DataFrame(columns=_COLUMNS)
     finest = solved.loc[solved.groupby(["point", "element"], sort=False)["n"].idxmax()]
-    told = []
+    lines = []
     for element, own in finest.groupby("element", sort=False):
         own = own.set_index("point")
         names = [name for name in SUMMED if name in own]
         names += [name for name in own if name.startswith(QUANTITY)]
-        told += [_line(element, name, own[name]) for name in names]
-    return pd.DataFrame([line for line in told if line], columns=_COLUMNS)
+        lines += [_line(element, name, own[name]) for name in names]
+    return pd.DataFrame([line for line in lines if line], columns=_COLUMNS)
 
 
 def _line(element, name, column):

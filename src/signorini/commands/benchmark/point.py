@@ -44,21 +44,21 @@ def run(arguments):
     row |= {"scene": scene.name}
     row |= {key: getattr(arguments, key) for key in ("element", "n", "method")}
     write_csv(arguments.output, [{name: row.get(name) for name in POINT}])
-    what = f"{scene.name} {arguments.element} n = {arguments.n} {arguments.method}"
-    return Outcome(f"{what}: {_told(row)}", row)
+    title = f"{scene.name} {arguments.element} n = {arguments.n} {arguments.method}"
+    return Outcome(f"{title}: {_summary(row)}", row)
 
 
 def _measured(scene, settings, arguments):
     warm_up = max(arguments.n // 2, scene.levels[0])
-    what = (arguments.element, arguments.n, arguments.method)
-    row, u = measure(scene.problem_statement, *what, settings["repeats"], warm_up)
+    case = (arguments.element, arguments.n, arguments.method)
+    row, u = measure(scene.problem_statement, *case, settings["repeats"], warm_up)
     if u is not None:
         stored = read_solution(arguments.solution)
         row |= {"h": stored.h, "difference": difference(stored.u, u)}
     return row
 
 
-def _told(row):
+def _summary(row):
     if row["status"] == "skipped":
         return row["note"]
     return f"{row['total']:.4f} s ({row['total_min']:.4f} to {row['total_max']:.4f})"

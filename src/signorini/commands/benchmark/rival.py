@@ -37,8 +37,10 @@ def run(arguments):
         missing = [n for n in levels if n not in {row.get("n") for row in rows}]
         level = missing[0] if missing else levels[-1]
         rows.append({"n": level, "status": "failed", "note": trouble})
-    what = {"scene": scene.name, "element": arguments.element, "rival": arguments.rival}
-    write_csv(arguments.output, [{name: (row | what).get(name) for name in RIVAL} for row in rows])
+    identity = {"scene": scene.name, "element": arguments.element, "rival": arguments.rival}
+    write_csv(
+        arguments.output, [{name: (row | identity).get(name) for name in RIVAL} for row in rows]
+    )
     return Outcome(
-        f"{' '.join(what.values())}: {len(rows)} rows, {rows[-1]['status']} at the last", rows
+        f"{' '.join(identity.values())}: {len(rows)} rows, {rows[-1]['status']} at the last", rows
     )

@@ -21,9 +21,9 @@ def add_published(parser):
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER")
 
 
-def add_quick(parser, told="coarse levels only"):
+def add_quick(parser, help_text="coarse levels only"):
     """Add the option ``--quick``."""
-    parser.add_argument("--quick", action="store_true", help=told)
+    parser.add_argument("--quick", action="store_true", help=help_text)
 
 
 def levels_of(scene, quick):

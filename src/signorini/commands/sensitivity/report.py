@@ -20,8 +20,8 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_comparison(parser)
     for name in ("digits", "chance"):
-        told = f"sensitivity_{name}.csv of `signorini sensitivity digits`"
-        parser.add_argument(f"--{name}", required=True, metavar="FILE", help=told)
+        help_text = f"sensitivity_{name}.csv of `signorini sensitivity digits`"
+        parser.add_argument(f"--{name}", required=True, metavar="FILE", help=help_text)
 
 
 def run(arguments):

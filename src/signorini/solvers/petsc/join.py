@@ -81,10 +81,10 @@ def _number(piece, comm):
     numbers = np.full(count, -1, dtype=np.int64)
     numbers[own] = int(comm.exscan(own.size) or 0) + np.arange(own.size)
     sent = [numbers[piece.shared[k]] if k in piece.shared else None for k in range(comm.size)]
-    for other, told in enumerate(comm.alltoall(sent)):
-        if told is not None:
+    for other, theirs_sent in enumerate(comm.alltoall(sent)):
+        if theirs_sent is not None:
             dofs, theirs = piece.shared[other], owner[piece.shared[other]] == other
-            numbers[dofs[theirs]] = told[theirs]
+            numbers[dofs[theirs]] = theirs_sent[theirs]
     return own, numbers
 
 

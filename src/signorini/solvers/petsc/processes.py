@@ -14,8 +14,8 @@ _ASKED = (_SIZES, 1), (_RANKS, 0)
 
 def _started():
     """How many processes were started together, and which of them this one is."""
-    told = ([int(os.environ.get(name, least)) for name in names] for names, least in _ASKED)
-    return tuple(map(max, told))
+    sizes = ([int(os.environ.get(name, least)) for name in names] for names, least in _ASKED)
+    return tuple(map(max, sizes))
 
 
 def check_alone(method):

@@ -63,8 +63,8 @@ def costs(rows):
     for scene, runs in by_run(rows).items():
         bound = max(min(row["upper"] for row in steps) for steps in runs.values())
         for (element, meshes), steps in runs.items():
-            what = {"scene": scene, "bound": bound, "element": element, "meshes": meshes}
-            found.append(what | _seconds(steps, bound))
+            identity = {"scene": scene, "bound": bound, "element": element, "meshes": meshes}
+            found.append(identity | _seconds(steps, bound))
     return found
 
 

@@ -70,8 +70,8 @@ def _reach(curves, reached):
         for scene in dict.fromkeys(scene for scene, _, _ in curves):
             for target in TARGETS:
                 spent = best.get((scene, norm, target), {})
-                what = {"norm": norm, "scene": scene, "target": target}
-                rows.append(what | {"spent": spent, "better": better(spent)})
+                identity = {"norm": norm, "scene": scene, "target": target}
+                rows.append(identity | {"spent": spent, "better": better(spent)})
     groups = (("", 2), *((name, 4) for name in elements), ("more accurate per", 3))
     return {"elements": elements, "reach": rows, "reach_groups": groups}
 
@@ -96,14 +96,14 @@ def _shares(row):
 def _accuracy(curves, compared):
     """Multigrid as far as it pays: its finest levels, where it pays, and where it is not told."""
     rows = finest(compared)
-    told = [row for (_, _, route), rows in curves.items() if route == ROUGH for row in rows]
+    rough = [row for (_, _, route), rows in curves.items() if route == ROUGH for row in rows]
     return {
         "rows": rows,
         "pays": [row for row in rows if row["pays"] > 0],
         "does_not": [row for row in rows if row["pays"] < 0],
         "most": max(rows, key=lambda row: row["less"], default=None),
-        "not_told": [row for row in told if row["note"]],
-        "levels": len(told),
+        "not_told": [row for row in rough if row["note"]],
+        "levels": len(rough),
     }
 
 

@@ -73,9 +73,9 @@ def reach(points, targets=TARGETS):
     rows = []
     for key, levels in series(points).items():
         for norm, target in product(PAPER_NORMS, targets):
-            what = dict(zip(SERIES, key, strict=True)) | {"norm": norm, "target": target}
+            identity = dict(zip(SERIES, key, strict=True)) | {"norm": norm, "target": target}
             status, costs = _cost([row for row in levels if row[norm]], norm, target)
-            rows.append(what | costs | {"status": status})
+            rows.append(identity | costs | {"status": status})
     return rows
 
 
@@ -175,9 +175,9 @@ def growth(points):
             if len(finest) < 3 or min(values) <= 0:
                 continue
             exponent = slopes([row["dofs"] for row in finest], values)["fit"]
-            what = dict(zip(SERIES, key, strict=True)) | {"quantity": quantity}
+            identity = dict(zip(SERIES, key, strict=True)) | {"quantity": quantity}
             levels = {"first": int(finest[0]["n"]), "last": int(finest[-1]["n"])}
-            rows.append(what | {"exponent": exponent} | levels)
+            rows.append(identity | {"exponent": exponent} | levels)
     return rows
 
 

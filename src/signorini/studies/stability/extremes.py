@@ -40,12 +40,12 @@ def scaling(powers):
     for element in ELEMENTS:
         problem, coarse = (discretize(_waves(), element, n) for n in (_N, _N // 2))
         for method, _ in solutions(problem):
-            what = {"element": element, "method": method}
+            identity = {"element": element, "method": method}
             base = _numbers(problem, coarse, method)
             for power in powers:
                 scaled = _numbers(_times(problem, power), _times(coarse, power), method)
                 different = int(np.sum(np.ldexp(base, power) != scaled))
-                rows.append(what | {"power": power, "different": different})
+                rows.append(identity | {"power": power, "different": different})
     return rows
 
 
@@ -83,9 +83,9 @@ def domains(sizes, offsets):
     rows = []
     for element in ELEMENTS:
         for method, base in solutions(discretize(_waves(), element, _N)):
-            what = {"element": element, "method": method}
+            identity = {"element": element, "method": method}
             for kind, value, moved in cases:
-                row = what | {"kind": kind, "value": value, "change": None, "refused": ""}
+                row = identity | {"kind": kind, "value": value, "change": None, "refused": ""}
                 try:
                     u = solve(discretize(moved, element, _N), method).u
                     row["change"] = float(np.max(np.abs(u - base.u)) / np.max(np.abs(base.u)))

@@ -52,10 +52,10 @@ def score(suite, answers):
 
 def _judged(file, answers):
     key, arrays = file
-    what = dict(zip(("family", "load", "element", "seed"), key, strict=True))
+    identity = dict(zip(("family", "load", "element", "seed"), key, strict=True))
     path = answers / f"{name_of(*key)}.npz"
     answer = read_answer(path, arrays["b"].shape) if path.exists() else None
-    row = {"solver": answers.name, "name": path.stem} | what
+    row = {"solver": answers.name, "name": path.stem} | identity
     if answer is None:
         return row | _NONE | {"residual": np.inf, "error": np.inf, "accurate": False}
     u = answer.pop("u")

@@ -51,13 +51,13 @@ def measure(family, seeds, few, time_limit):
         all_of_them = not {*key} & {*HARD}
         for number, seed in enumerate(seeds):
             made = instance(*key, seed)
-            what = dict(zip(_KEY, (*key, seed), strict=True)) | {"dofs": made.problem.b.size}
-            what |= {"aspect": made.aspect, "busy": os.getloadavg()[0]}
-            rows += [what | _row(**answer) for answer in proofs(made.problem)]
+            identity = dict(zip(_KEY, (*key, seed), strict=True)) | {"dofs": made.problem.b.size}
+            identity |= {"aspect": made.aspect, "busy": os.getloadavg()[0]}
+            rows += [identity | _row(**answer) for answer in proofs(made.problem)]
             for name in rivals:
                 if number < few or (all_of_them and name not in SLOW):
                     answer = worker.ask((*key, seed), name, time_limit)
-                    rows.append(what | (answer or _late(name, time_limit)))
+                    rows.append(identity | (answer or _late(name, time_limit)))
     worker.close()
     return rows
 

@@ -59,11 +59,11 @@ def compare(problem):
         precision does relative to its variation. A refusal counts as the status ``refused``.
     """
     u, condition, size = bounded_least_squares(problem)
-    what = {"element": problem.element, "dofs": problem.b.size, "contact": problem.contact.size}
+    identity = {"element": problem.element, "dofs": problem.b.size, "contact": problem.contact.size}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return [
-            what | {"method": tried.method} | _compared(tried.solution, u, condition, size)
+            identity | {"method": tried.method} | _compared(tried.solution, u, condition, size)
             for tried in attempts(problem)
         ]
 

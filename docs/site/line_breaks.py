@@ -1,10 +1,13 @@
-"""Where lines of the site may break: in names in tables, not between a formula and its mark."""
+"""Where lines of the site may break: in names in tables, but neither in an option of a command nor
+between a formula and the mark after it.
+"""
 
 import re
 
 TABLE = re.compile(r"<table.*?</table>", re.S)
 NAME = re.compile(r'(?<=<span class="pre">)[^<]+')
-JOINT = re.compile(r"(?<=\w)([._/=])(?=\w)")
+JOINT = re.compile(r"(?<=[A-Za-z0-9;])([._/=])(?=[A-Za-z0-9&])")  # entities are &lt; and the like
+OPTION = re.compile(r'<span class="pre">(?=--?\w)')
 FORMULA = r"<math(?:(?!</math>).)*</math>"
 MARKED = re.compile(rf"({FORMULA})(?:&#8288;|\u2060)([.,;:)]+)", re.S)
 
@@ -24,8 +27,9 @@ def at_joints(name):
 
 
 def together(body):
-    """The HTML of a page, each formula on one line with the mark that follows it."""
-    return MARKED.sub(r'<span class="together">\1\2</span>', body)
+    """The HTML of a page, each option on one line, and each formula with the mark after it."""
+    options = OPTION.sub('<span class="pre together">', body)
+    return MARKED.sub(r'<span class="together">\1\2</span>', options)
 
 
 def finish(app, page, template, context, tree):

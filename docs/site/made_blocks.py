@@ -4,6 +4,7 @@ A line `<!-- made: name -->` is replaced by the Markdown that the function of th
 """
 
 import re
+import textwrap
 from pathlib import Path
 
 import yaml
@@ -26,9 +27,10 @@ def citation():
     """The software as BibTeX, from CITATION.cff."""
     facts = read(CITATION)
     names = [author.get("name") or full_name(author) for author in facts["authors"]]
+    title = textwrap.fill(facts["title"], 72, subsequent_indent=" " * 13)
     lines = [
         f"@software{{{facts['title'].partition(':')[0]},",
-        f"  title   = {{{facts['title']}}},",
+        f"  title   = {{{title}}},",
         f"  author  = {{{' and '.join(f'{{{name}}}' for name in names)}}},",
         f"  version = {{{facts['version']}}}",
         "}",

@@ -3,15 +3,22 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from signorini.api.arguments import described
+from signorini.api.saving import saved
 from signorini.api.types import Floats, Integers
 from signorini.exceptions import MeshError
 from signorini.mesh.boundary import SIDES, offered, part_key
 from signorini.mesh.domain import make_domain
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_MOST_SHOWN = 20000  # triangles in a picture
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -204,10 +211,56 @@ class Mesh:
         >>> sorted(mesh.boundaries), mesh.t.shape
         (['bottom', 'left', 'neumann', 'right', 'top'], (3, 32))
         """
+        boundaries, subdomains = self._named()
+        mesh = self._triangulation.skfem
+        return mesh.with_boundaries(boundaries).with_subdomains(subdomains)
+
+    def plot(self, path: str | Path | None = None, title: str | None = None) -> "Figure":
+        """Draw the triangles, and the parts of the boundary and the subdomains by their names.
+
+        Of a mesh of more than 20000 triangles a coarser level is drawn, where there is one.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where to write the figure, .pdf or .png.
+        title : str, optional
+            Plain text; by default the number of triangles, and the level.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        SceneError
+            If the path does not end in .pdf or .png.
+        """
+        from signorini.figures.mesh import draw_mesh
+        from signorini.report.named_parts import named_parts
+
+        shown = self._coarse_enough(_MOST_SHOWN)
+        if title is None:
+            title = f"{shown.number_of_triangles:,} triangles, level n = {shown.n}"
+        facets, triangles = shown._named()
+        own = {name: facets[name] for name in offered(facets)}
+        return saved(draw_mesh(named_parts(shown._triangulation, own, triangles), title), path)
+
+    def _coarse_enough(self, most_triangles: int) -> "Mesh":
+        """The finest level of so many triangles, halving n; the coarsest where all have more."""
+        mesh = self
+        while mesh.number_of_triangles > most_triangles and mesh.n % 2 == 0:
+            try:
+                mesh = mesh.level(mesh.n // 2)
+            except MeshError:
+                break
+        return mesh
+
+    def _named(self) -> tuple[dict[str, Integers], dict[str, Integers]]:
+        """Facets of the parts of the boundary, and triangles of the subdomains."""
         mesh = self._triangulation
-        names = {name: mesh.boundary_facets(part_key(name)) for name in self.boundaries}
-        subdomains = {name: mesh.subdomains[name] for name in self.subdomains}
-        return mesh.skfem.with_boundaries(names).with_subdomains(subdomains)
+        facets = {name: mesh.boundary_facets(part_key(name)) for name in self.boundaries}
+        return facets, {name: mesh.subdomains[name] for name in self.subdomains}
 
     def __repr__(self) -> str:
         parts = ", ".join(offered(self.boundaries)) or "none named"

@@ -129,7 +129,7 @@ class Solution(SolverSolution):
         >>> problem = signorini.problem(signorini.rectangle(4), f=0, dirichlet=ends)
         >>> signorini.solve(problem).at([[0.3, 0.3], [0.25, 0.9]]).round(12)
         array([0.25, 0.9 ])
-        >>> round(signorini.solve(problem).at((0.3, 0.25)), 12)
+        >>> float(signorini.solve(problem).at((0.3, 0.25)).round(12))
         0.25
         """
         from signorini.fem.evaluate import evaluate

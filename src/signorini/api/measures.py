@@ -52,6 +52,11 @@ def measure_of(
     -------
     callable
 
+    Raises
+    ------
+    SceneError, FormulaError, MeshError
+        As `Solution.errors`.
+
     Examples
     --------
     Nothing is missing of an affine solution:

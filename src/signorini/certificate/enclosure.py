@@ -220,6 +220,16 @@ def contact_term(equilibrium, admissible):
     """<tau.n - s, v + w - alpha>: a constant against an affine function on each facet.
 
     What the threshold s has beyond its affine part is in the oscillation.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+    admissible : Admissible
+
+    Returns
+    -------
+    float
+        Unit of k times that of u squared.
     """
     return float(equilibrium.force @ admissible.above.mean(axis=0))
 
@@ -274,5 +284,17 @@ def _distances(topology, potential, flux, rest):
 
 
 def energy_norms(piece, field):
-    """The energy norm of k times a gradient, or of a flux, on each triangle of a piece, (m,)."""
+    """The energy norm of k times a gradient, or of a flux, on each triangle of a piece, (m,).
+
+    Parameters
+    ----------
+    piece : Piece
+    field : Field
+        k times a gradient, or a flux.
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        On each triangle.
+    """
     return np.sqrt(field.squared(piece) / piece.coefficient)

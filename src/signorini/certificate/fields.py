@@ -186,6 +186,15 @@ class Field:
 def gradient_on(piece, potential):
     """k times the gradient of a `Potential` on a piece, a `Field`.
 
+    Parameters
+    ----------
+    piece : Piece
+    potential : Potential
+
+    Returns
+    -------
+    Field
+
     Examples
     --------
     The field of a potential without bubbles is that of its affine part:
@@ -211,6 +220,16 @@ def gradient_on(piece, potential):
 def flow_on(piece, values):
     """k grad v . n over each facet of an affine function: both ends alike, (3, m).
 
+    Parameters
+    ----------
+    piece : Piece
+    values : ndarray, shape (3, m)
+        Of the function at the corners.
+
+    Returns
+    -------
+    ndarray, shape (3, m)
+
     Examples
     --------
     The flux of grad x out of a triangle is 0 in all:
@@ -228,7 +247,17 @@ def flow_on(piece, values):
 
 
 def flux_on(piece, flux):
-    """A `Flux` on a piece, a `Field`."""
+    """A `Flux` on a piece, a `Field`.
+
+    Parameters
+    ----------
+    piece : Piece
+    flux : Flux
+
+    Returns
+    -------
+    Field
+    """
     through = flux.through[piece.t2f]
     through *= piece.signs
     tilt = flux.bubbles[piece.t2f]

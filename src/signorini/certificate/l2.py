@@ -38,6 +38,15 @@ def l2_bound(enclosure, corners):
 def mean_square(V, Q):
     """That of sum V_i lambda_i + sum Q_i lambda_i lambda_(i+1), as in `fields`.
 
+    Parameters
+    ----------
+    V, Q : ndarray, shape (3, m)
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Unit of V squared.
+
     Examples
     --------
     That of a barycentric coordinate is 1/6, and of a product of two it is 1/90:

@@ -100,6 +100,17 @@ class Trace:
     def at(self, datum, s):
         """A datum at the fractions `s`, shape (q,), of each facet: (m, q).
 
+        Parameters
+        ----------
+        datum : Formula or Function
+        s : ndarray, shape (q,)
+            Fractions of the way along a facet.
+
+        Returns
+        -------
+        ndarray, shape (m, q)
+            Unit of the datum.
+
         Examples
         --------
         >>> from signorini.certificate.pieces import Topology
@@ -118,6 +129,16 @@ class Trace:
 
 def trace(topology, label):
     """The `Trace` of a mesh on the facets that carry a label, or the key of a part.
+
+    Parameters
+    ----------
+    topology : Topology
+    label : str
+        ``"dirichlet"``, ``"contact"``, ``"neumann"``, or a `part_key`.
+
+    Returns
+    -------
+    Trace
 
     Examples
     --------
@@ -193,6 +214,19 @@ def given_on(topology, trace, datum):
 
 def sampled(topology, trace, datum, s):
     """A datum at the fractions `s`, shape (q,), of each facet; zero where none is given: (m, q).
+
+    Parameters
+    ----------
+    topology : Topology
+    trace : Trace
+    datum : Formula, Function or ByPart
+    s : ndarray, shape (q,)
+        Fractions of the way along a facet.
+
+    Returns
+    -------
+    ndarray, shape (m, q)
+        Unit of the datum.
 
     Examples
     --------

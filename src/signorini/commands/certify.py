@@ -38,7 +38,15 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Certify level after level, and tell what each cost."""
+    """Certify level after level, and tell what each cost.
+
+    Raises
+    ------
+    SceneError
+        If ``--bound`` is not positive, or ``--n`` is no level.
+    MeshError
+        If the next level is too fine, and no bound is small enough yet.
+    """
     scene = scene_of(arguments.scene)
     elements = [arguments.element] if arguments.element else scene.elements
     goal = arguments.bound if arguments.bound is not None else float("inf")

@@ -19,7 +19,17 @@ def add_scene(parser):
 
 
 def add_output(parser, what, required=True, ending=""):
-    """Add the option ``--output``; a file that ends otherwise than told is refused."""
+    """Add the option ``--output``; a file that ends otherwise than told is refused.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    what : str
+        What is written, for the help.
+    required : bool, optional
+    ending : str, optional
+        With which the file must end.
+    """
     parser.add_argument(
         "-o",
         "--output",

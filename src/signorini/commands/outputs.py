@@ -33,7 +33,13 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    """Compute, and write or show the table."""
+    """Compute, and write or show the table.
+
+    Raises
+    ------
+    SceneError
+        If the scene names no quantities.
+    """
     scene = scene_of(arguments.scene)
     quantities = scene.document["quantities"]
     if not quantities:

@@ -97,7 +97,17 @@ class Judgement:
     source: dict
 
     def renamed(self, old, new):
-        """The same, of a folder under another name."""
+        """The same, of a folder under another name.
+
+        Parameters
+        ----------
+        old, new : str
+            Paths of the folder.
+
+        Returns
+        -------
+        Judgement
+        """
         findings = [
             replace(each, path=each.path.replace(old, new), told=each.told.replace(old, new))
             for each in self.findings

@@ -70,6 +70,16 @@ class Annulus(ExactSolution):
     def value(self, x, y):
         """u at points, by the closed form; parameters as in `ExactSolution.value`.
 
+        Parameters
+        ----------
+        x, y : array_like
+            Coordinates, unit of length.
+
+        Returns
+        -------
+        ndarray
+            Unit of u.
+
         Examples
         --------
         Zero where the circle is in contact, positive beyond:
@@ -82,6 +92,16 @@ class Annulus(ExactSolution):
 
     def gradient(self, x, y):
         """Partial derivatives of u at points; as in `ExactSolution.gradient`.
+
+        Parameters
+        ----------
+        x, y : array_like
+            Coordinates, unit of length.
+
+        Returns
+        -------
+        tuple of two ndarray
+            Unit of u per length.
 
         Examples
         --------
@@ -96,6 +116,15 @@ class Annulus(ExactSolution):
     def value_and_gradient(self, x, y):
         """u and its partial derivatives; as in `ExactSolution.value_and_gradient`.
 
+        Parameters
+        ----------
+        x, y : array_like
+            Coordinates, unit of length.
+
+        Returns
+        -------
+        tuple of three ndarray
+
         Examples
         --------
         >>> ring = Annulus(half_angle=1.0, load_value=-1.0, press=1.0)
@@ -108,6 +137,16 @@ class Annulus(ExactSolution):
 
     def load(self, x, y):
         """The constant load; as in `ExactSolution.load`.
+
+        Parameters
+        ----------
+        x, y : array_like
+            Coordinates, unit of length.
+
+        Returns
+        -------
+        ndarray
+            Unit of u per length squared.
 
         Examples
         --------

@@ -101,6 +101,11 @@ class Diffused(ExactSolution):
         -------
         ndarray
 
+        Raises
+        ------
+        SceneError, FormulaError
+            Where the load is not known, or not finite.
+
         Examples
         --------
         -div(x grad x) = -1:

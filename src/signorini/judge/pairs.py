@@ -104,6 +104,16 @@ def residual(A, high, low, b):
 def moved(high, low, step):
     """A pair, and a step added to it, as a pair.
 
+    Parameters
+    ----------
+    high, low : float or ndarray
+        Of the pair.
+    step : float or ndarray
+
+    Returns
+    -------
+    high, low : float or ndarray
+
     Examples
     --------
     >>> moved(1.0, 0.0, 2.0**-80) == (1.0, 2.0**-80)

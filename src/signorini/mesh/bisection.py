@@ -59,7 +59,13 @@ class Bisected(Triangulation):
         return self.origin.in_one_part
 
     def children(self, values):
-        """Refused: a triangle of `coarser()` has no fixed number of children."""
+        """Refused: a triangle of `coarser()` has no fixed number of children.
+
+        Raises
+        ------
+        MeshError
+            In any case.
+        """
         raise MeshError(
             "mesh: errors against a finer mesh need uniform refinements; "
             "this mesh is locally refined: use an exact truth or a certificate"

@@ -62,6 +62,11 @@ class Circle:
     def normals(self, p):
         """Unit normals at points of the curve, away from the centre; as `nearest`.
 
+        Raises
+        ------
+        MeshError
+            For the centre.
+
         Examples
         --------
         >>> Circle((0.0, 0.0), 5.0).normals(np.array([[3.0], [4.0]])).ravel().tolist()

@@ -156,7 +156,18 @@ def _shared_facets(mesh, owner, which):
 
 
 def facets_along(mesh, chain):
-    """The facets of a mesh between the vertices that follow one another in the rows of a chain."""
+    """The facets of a mesh between the vertices that follow one another in the rows of a chain.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+    chain : ndarray of int, shape (k, m)
+        Rows of vertices.
+
+    Returns
+    -------
+    ndarray of int, shape (k, m - 1)
+    """
     keys = pair_keys(mesh.facets, mesh.number_of_vertices)
     ends = np.stack([chain[:, :-1].ravel(), chain[:, 1:].ravel()])
     wanted = pair_keys(ends, mesh.number_of_vertices)

@@ -95,6 +95,15 @@ class Strip(Grid):
 def strip_of(grid, first, last):
     """The rows of cells of a grid from `first` to before `last`, as a `Strip`.
 
+    Parameters
+    ----------
+    grid : Grid
+    first, last : int
+
+    Returns
+    -------
+    Strip
+
     Examples
     --------
     >>> labels = ("contact", "neumann", "dirichlet", "neumann")

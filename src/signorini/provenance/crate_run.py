@@ -69,7 +69,22 @@ def _distinct(entities):
 
 
 def entity(crate, identifier, kind, **facts):
-    """Add what is no file: a program, a person, an action."""
+    """Add what is no file: a program, a person, an action.
+
+    Parameters
+    ----------
+    crate : rocrate.rocrate.ROCrate
+    identifier : str
+        Its ``@id`` in the crate.
+    kind : str
+        Its ``@type``.
+    **facts
+        Its other properties.
+
+    Returns
+    -------
+    rocrate.model.entity.Entity
+    """
     from rocrate.model.contextentity import ContextEntity
 
     added = crate.add(ContextEntity(crate, identifier, properties={"@type": kind}))
@@ -193,7 +208,17 @@ def _snakemake(crate, version):
 
 
 def package(crate, name, version):
-    """A package of PyPI; the same entity when it is asked for again."""
+    """A package of PyPI; the same entity when it is asked for again.
+
+    Parameters
+    ----------
+    crate : rocrate.rocrate.ROCrate
+    name, version : str
+
+    Returns
+    -------
+    rocrate.model.entity.Entity
+    """
     address = f"https://pypi.org/project/{name}/{version}/"
     facts = {"name": name, "softwareVersion": version, "url": address}
     return crate.get(address) or entity(crate, address, "SoftwareApplication", **facts)

@@ -104,7 +104,18 @@ def is_kept(path):
 
 
 def is_sealed(path, digest):
-    """Whether the digest beside a file, where there is one, is the file's."""
+    """Whether the digest beside a file, where there is one, is the file's.
+
+    Parameters
+    ----------
+    path : Path
+    digest : str
+        SHA-256 of the file, in hexadecimal.
+
+    Returns
+    -------
+    bool
+    """
     seal = digest_file(path)
     if not os.path.lexists(seal):
         return True
@@ -192,6 +203,13 @@ def _refuse_constant(name):
 
 def check_inside(path, source):
     """Refuse a path that leads out of its folder.
+
+    Parameters
+    ----------
+    path : str
+        With "/" between its parts.
+    source : str or Path
+        The file that names it.
 
     Raises
     ------

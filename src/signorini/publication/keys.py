@@ -232,6 +232,16 @@ def _starred(key):
 def nearest_key(key, known):
     """A hint at the nearest of the known keys, and where all of them are told.
 
+    Parameters
+    ----------
+    key : str
+        That is not known.
+    known : iterable of str
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> nearest_key("L2, CR, 64", ["l2, CR, 64", "l2, CR, 32"])

@@ -87,6 +87,16 @@ def shown(numbers):
 def printed(key, text, form):
     """A number in LaTeX; a published one as it was printed, where nothing is said of its form.
 
+    Parameters
+    ----------
+    key, text : str
+        Of the number, and its value.
+    form : Form
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> from signorini.publication.notation import Form

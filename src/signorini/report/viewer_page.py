@@ -37,7 +37,13 @@ def viewer_page(data):
 
 
 def plotly_script():
-    """The script of Plotly that draws in a browser, a text of 4.8 MB."""
+    """The script of Plotly that draws in a browser, a text of 4.8 MB.
+
+    Raises
+    ------
+    SignoriniError
+        If Plotly is not installed.
+    """
     try:
         from plotly.offline import get_plotlyjs
     except ImportError:

@@ -60,6 +60,17 @@ def count_roughly(domain, n):
 
     Netgen makes an eighth more.
 
+    Parameters
+    ----------
+    domain : dict
+        The section ``domain``.
+    n : int
+
+    Returns
+    -------
+    float
+        Zero for a mesh file, which is not read.
+
     Examples
     --------
     >>> square = {"kind": "rectangle", "size": [1, 1], "cells": "per-unit", "diagonal": "falling"}

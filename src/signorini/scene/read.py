@@ -91,6 +91,17 @@ def read_scene(path):
 def scene_of_mapping(mapping, name, folder):
     """See `Scene.from_dict`.
 
+    Parameters
+    ----------
+    mapping : dict
+    name : str
+    folder : str or Path
+        As of `Scene.from_dict`.
+
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     SceneError, FormulaError, MeshError
@@ -111,6 +122,18 @@ def scene_of_mapping(mapping, name, folder):
 
 def read_mapping(mapping, name, folder):
     """As `Scene.from_dict`, but checks only what the mapping alone shows; see `read_scene`.
+
+    Parameters
+    ----------
+    mapping : dict
+    name : str
+    folder : str or Path
+        As of `Scene.from_dict`.
+
+    Returns
+    -------
+    Scene
+        Whose `check` checks the rest.
 
     Raises
     ------

@@ -18,6 +18,16 @@ def exponent_of(problem, maxima=alone):
     """The power of two that brings the data to order one; exact, so results scale with the data bit
     for bit.
 
+    Parameters
+    ----------
+    problem : Problem or Share
+    maxima : callable, optional
+        Of numbers of this process, the greatest of all processes.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     >>> from signorini import discretize, load_scene
@@ -114,6 +124,11 @@ def solve_from_constant(problem, find, guess=None, maxima=alone):
         By how much its u is less.
     found : tuple
         What `find` found.
+
+    Raises
+    ------
+    SolverError
+        Of `find`.
 
     Examples
     --------

@@ -173,6 +173,15 @@ def read_bytes(path):
 def unreadable(path, error):
     """The `StorageError` of a file that the system does not read.
 
+    Parameters
+    ----------
+    path : str or Path
+    error : OSError
+
+    Returns
+    -------
+    StorageError
+
     Examples
     --------
     >>> str(unreadable("results", IsADirectoryError(errno.EISDIR, "Is a directory")))

@@ -22,15 +22,42 @@ def add_published(parser):
 
 
 def add_quick(parser, help_text="coarse levels only"):
-    """Add the option ``--quick``."""
+    """Add the option ``--quick``.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    help_text : str, optional
+    """
     parser.add_argument("--quick", action="store_true", help=help_text)
 
 
 def levels_of(scene, quick):
-    """The levels of the scene's table, or the coarse ones of them."""
+    """The levels of the scene's table, or the coarse ones of them.
+
+    Parameters
+    ----------
+    scene : Scene
+    quick : bool
+
+    Returns
+    -------
+    list of int
+    """
     return [n for n in scene.levels if n <= _QUICK_LEVEL or not quick]
 
 
 def reference_of(scene, quick):
-    """The level of the reference."""
+    """The level of the reference.
+
+    Parameters
+    ----------
+    scene : Scene
+    quick : bool
+        Coarser then.
+
+    Returns
+    -------
+    int
+    """
     return scene.truth["n"] // (_QUICK_REFERENCE if quick else 1)

@@ -41,7 +41,17 @@ def run(arguments):
 
 
 def sections_of(scene, quick):
-    """What the scene asks, and no finer where the suite is to be quick."""
+    """What the scene asks, and no finer where the suite is to be quick.
+
+    Parameters
+    ----------
+    scene : Scene
+    quick : bool
+
+    Returns
+    -------
+    dict
+    """
     sections = scene.section("elements", "levels", "truth", "norms")
     if not quick:
         return sections

@@ -67,6 +67,11 @@ def agreed(comm, function):
     function : callable
         Without arguments; it does not communicate.
 
+    Returns
+    -------
+    object
+        What the function returns.
+
     Raises
     ------
     SignoriniError
@@ -91,6 +96,16 @@ def in_one_voice(comm, function):
     ----------
     comm : mpi4py.MPI.Comm
     function : callable
+
+    Returns
+    -------
+    object
+        What the function returns.
+
+    Raises
+    ------
+    SignoriniError
+        Of the function, on the first process; the others end.
     """
     try:
         return function()

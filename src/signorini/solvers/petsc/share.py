@@ -135,7 +135,17 @@ class Share:
         return self.A[self.contact]
 
     def forces(self, u, load):
-        """A u - load at all contact dofs, shape (nc,)."""
+        """A u - load at all contact dofs, shape (nc,).
+
+        Parameters
+        ----------
+        u, load : ndarray, shape (m,)
+            At the own dofs of this process.
+
+        Returns
+        -------
+        ndarray, shape (nc,)
+        """
         return self.on_contact(self._contact_rows @ self.with_ghosts(u) - load[self.contact])
 
     def apply(self, u):

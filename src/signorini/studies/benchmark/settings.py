@@ -84,6 +84,15 @@ def measured_levels(settings, scene):
 def shown_levels(settings, scene):
     """Those of `measured_levels` whose errors are shown: four times coarser than a reference.
 
+    Parameters
+    ----------
+    settings : dict
+    scene : Scene
+
+    Returns
+    -------
+    list of int
+
     Examples
     --------
     Four times coarser than the reference, at least:
@@ -119,6 +128,16 @@ def own_references(scenes):
 
 
 def coarse_references(settings, scenes):
-    """Names of the scenes whose own reference is coarser than the benchmark's."""
+    """Names of the scenes whose own reference is coarser than the benchmark's.
+
+    Parameters
+    ----------
+    settings : dict
+    scenes : dict of str to Scene
+
+    Returns
+    -------
+    list of str
+    """
     own = own_references(scenes)
     return [name for name, n in own.items() if settings["scenes"][name]["reference"] > n]

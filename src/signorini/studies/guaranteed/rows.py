@@ -94,6 +94,17 @@ def _row(fine, domain, solution, published):
 def printed_energy(published, element, n):
     """The energy error that published errors in H1 and L2 imply, or None.
 
+    Parameters
+    ----------
+    published : dict of (str, str, int) to float
+        (norm, element, n) -> published error.
+    element : {"P1", "CR"}
+    n : int
+
+    Returns
+    -------
+    float or None
+
     Examples
     --------
     >>> printed_energy({("h1", "CR", 2): 5.0, ("l2", "CR", 2): 3.0}, "CR", 2)

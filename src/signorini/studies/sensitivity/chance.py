@@ -58,7 +58,17 @@ def chance(statement, elements, levels, reference_n, published, draws=DRAWS):
 
 
 def has_equal_shares(statement, n):
-    """Whether each triangle adds a third of its area times one value of f to each of its dofs."""
+    """Whether each triangle adds a third of its area times one value of f to each of its dofs.
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    n : int
+
+    Returns
+    -------
+    bool
+    """
     level = statement.triangulations.level(n)
     return statement.load_quadrature == "centroid" and isinstance(level, Grid)
 
@@ -92,7 +102,17 @@ class RoundedLoad:
     of_shares: np.ndarray
 
     def moves(self, rng, count):
-        """What `count` roundings at random do to the errors, (k, count)."""
+        """What `count` roundings at random do to the errors, (k, count).
+
+        Parameters
+        ----------
+        rng : numpy.random.Generator
+        count : int
+
+        Returns
+        -------
+        ndarray, shape (k, count)
+        """
         values, shares = rng.uniform(-1.0, 1.0, (2, self.of_values.size, count))
         rounding = self.of_values[:, None] * values + self.of_shares[:, None] * shares
         return self.gains @ rounding

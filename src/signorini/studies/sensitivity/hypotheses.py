@@ -50,7 +50,19 @@ class Hypothesis:
 
 
 def plain(statement, element, n):
-    """The solution as the library computes it; (mesh, u)."""
+    """The solution as the library computes it; (mesh, u).
+
+    Parameters
+    ----------
+    statement : ProblemStatement
+    element : {"P1", "CR"}
+    n : int
+
+    Returns
+    -------
+    mesh : Grid or Triangulation
+    u : ndarray, shape (ndof,)
+    """
     problem = _problem(statement, element, n)
     return problem.mesh, solve(problem).u
 

@@ -51,7 +51,18 @@ class Responses:
         self._values = self._traces @ solution.u
 
     def of(self, problem, solution):
-        """The response of the errors of a solution on a coarser mesh that nests; a `Response`."""
+        """The response of the errors of a solution on a coarser mesh that nests; a `Response`.
+
+        Parameters
+        ----------
+        problem : Problem
+            On the coarser mesh.
+        solution : Solution
+
+        Returns
+        -------
+        Response
+        """
         traces = _values_in(problem, self._mesh)
         d = (self._values - traces @ solution.u).reshape(3, -1)
         moments = self._moments(d)

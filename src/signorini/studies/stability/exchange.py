@@ -30,6 +30,15 @@ _NUMBERS = ("variation", "error", "limit", "condition")
 def keys(seeds, families=tuple(FAMILIES)):
     """(family, load, element, seed) of all problems of some seeds.
 
+    Parameters
+    ----------
+    seeds : iterable of int
+    families : sequence of str, optional
+
+    Returns
+    -------
+    list of (str, str, str, int)
+
     Examples
     --------
     >>> len(keys(range(25))), keys([0])[0]
@@ -40,6 +49,15 @@ def keys(seeds, families=tuple(FAMILIES)):
 
 def name_of(family, load, element, seed):
     """The name of a problem's file, without its ending.
+
+    Parameters
+    ----------
+    family, load, element : str
+    seed : int
+
+    Returns
+    -------
+    str
 
     Examples
     --------

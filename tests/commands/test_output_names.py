@@ -7,6 +7,14 @@ from signorini.commands.program import MISTAKE, main
 WORDS = {
     ".html": (["viewer", "s.yaml"], ["gallery-page", "s.yaml", "--results", "r"]),
     ".json": (["check", "s.yaml"],),
+    ".npz": (["solve", "s.yaml"], ["mesh", "s.yaml"], ["field", "m.npz", "u.npz"]),
+    ".csv": (
+        ["errors", "s.yaml"],
+        ["rates", "s.yaml", "e.csv"],
+        ["contact-line", "m.npz", "u.npz"],
+    ),
+    ".tex": (["macros", "s.yaml"],),
+    ".pdf": (["typeset", "s.yaml", "f"],),
 }
 
 

@@ -262,7 +262,7 @@ def test_errors_rates_and_table_by_hand(small, tmp_path, capsys):
     """What a person types, from a scene to a table, with files in between or without."""
     code, shown, _ = call(capsys, "errors", small)
     assert code == 0
-    assert len(shown.splitlines()) == 1 + 4
+    assert len(shown.splitlines()) == 1 + 4 + 2  # a heading, errors, slopes
     solutions = []
     for element in ("P1", "CR"):
         for n in (2, 4):
@@ -288,7 +288,7 @@ def test_errors_rates_and_table_by_hand(small, tmp_path, capsys):
     ("words", "said"),
     [
         (["--reference"], "truth.kind is exact, so that there is no reference"),
-        (["--element", "P1"], "give --element and --n, or --reference"),
+        (["--element", "P1"], "--n, for instance --element CR --n 64; or --reference"),
         (["--element", "P1", "--n", "0"], "--n 0: n is 1/h"),
     ],
 )

@@ -28,7 +28,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
-    add_output(parser, "the certificates, .npz", required=False)
+    add_output(parser, "the certificates, .npz", required=False, ending=".npz")
 
 
 def run(arguments):

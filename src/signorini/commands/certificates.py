@@ -21,7 +21,7 @@ def add_arguments(parser):
     )
     parser.add_argument("--tex", metavar="FILE", help="where to write the table in LaTeX")
     parser.add_argument("--markdown", metavar="FILE", help="where to write it in Markdown")
-    add_output(parser, "all numbers, certificates.csv", required=False)
+    add_output(parser, "all numbers, certificates.csv", required=False, ending=".csv")
 
 
 def run(arguments):

@@ -25,7 +25,7 @@ def add_arguments(parser):
         metavar="FOLDER",
         help="of the scene's results; default: results/NAME",
     )
-    add_output(parser, "the comparison, check.csv", required=False)
+    add_output(parser, "the comparison, check.csv", required=False, ending=".csv")
 
 
 def run(arguments):

@@ -24,7 +24,7 @@ def add_arguments(parser):
     parser.add_argument("solutions", metavar="SOLUTION", nargs="+", help="solutions, .npz")
     parser.add_argument("--scene", metavar="SCENE", type=Path, help="tells the exact solution")
     parser.add_argument("--reference", metavar="FILE", help="a solution of a finer level, .npz")
-    add_output(parser, "the table, .csv")
+    add_output(parser, "the table, .csv", ending=".csv")
 
 
 def run(arguments):

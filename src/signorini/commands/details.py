@@ -35,7 +35,7 @@ def add_arguments(parser):
         type=Path,
         help="the output of `signorini certificate` of the same level",
     )
-    add_output(parser, "the details, .npz")
+    add_output(parser, "the details, .npz", ending=".npz")
 
 
 def run(arguments):

@@ -16,7 +16,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_mesh(parser)
     add_solution(parser)
-    add_output(parser, "the field, .npz")
+    add_output(parser, "the field, .npz", ending=".npz")
 
 
 def run(arguments):

@@ -30,7 +30,7 @@ def add_arguments(parser):
         metavar="FOLDER",
         help="of the scene's results; default: results/NAME",
     )
-    add_output(parser, "the macros of the scene's publication, .tex", required=False)
+    add_output(parser, "the macros of the scene's publication, .tex", required=False, ending=".tex")
 
 
 def run(arguments):

@@ -12,7 +12,7 @@ from signorini.mesh.domain import write_domain
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    add_output(parser, "the mesh, .npz")
+    add_output(parser, "the mesh, .npz", ending=".npz")
 
 
 def run(arguments):

@@ -29,7 +29,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
-    add_output(parser, "the table, outputs.csv", required=False)
+    add_output(parser, "the table, outputs.csv", required=False, ending=".csv")
 
 
 def run(arguments):

@@ -30,6 +30,8 @@ def main(words=None):
         0, or 1 after an error, printed in one line, 2 after a wrong command line.
     """
     words = list(sys.argv[1:] if words is None else words)
+    if words[:1] == ["help"] and len(words) > 1:
+        words = [*words[1:], "--help"]
     if not words or words[0] in ("-h", "--help", "help"):
         _print(overview())
         return 0 if words else MISTAKE
@@ -98,7 +100,15 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message):
         remedy = f"{self.prog} --help explains the arguments"
+        if "required" in message:
+            remedy = f"for instance {_example(self.description)}; {remedy}"
         self.exit(MISTAKE, f"error: {self.prog}: {message}; {remedy}\n")
+
+
+def _example(description):
+    """The first example of a command's help, in one line."""
+    examples = description.partition("example:\n")[2].replace("\\\n", " ")
+    return " ".join(examples.partition("\n")[0].split())
 
 
 def _parser(command, module):
@@ -133,16 +143,19 @@ def _run(module, arguments):
     gc.freeze()
     if outcome is None:  # another process tells it
         return 0
-    _print(_summary(outcome, arguments.json, time.perf_counter() - start))
+    seconds = time.perf_counter() - start
+    _print(_summary(outcome, arguments.json, getattr(arguments, "output", None), seconds))
     return int(outcome.failed)
 
 
-def _summary(outcome, as_json, seconds):
+def _summary(outcome, as_json, output, seconds):
     if as_json:
         return json.dumps({"text": outcome.text} if outcome.data is None else outcome.data)
     if "\n" in outcome.text:
         return outcome.text.rstrip("\n")
-    return f"{outcome.text} ({seconds:.2f} s)"
+    is_named = output is None or str(output) in outcome.text
+    text = outcome.text if is_named else f"{outcome.text}; in {output}"
+    return f"{text} ({seconds:.2f} s)"
 
 
 def _print(text):

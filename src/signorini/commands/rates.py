@@ -16,7 +16,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
     parser.add_argument("errors", metavar="ERRORS", help="errors.csv of `signorini errors`")
-    add_output(parser, "the table, rates.csv", required=False)
+    add_output(parser, "the table, rates.csv", required=False, ending=".csv")
 
 
 def run(arguments):

@@ -59,7 +59,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
-    add_output(parser, "u and its proof, .npz", required=False)
+    add_output(parser, "u and its proof, .npz", required=False, ending=".npz")
 
 
 def run(arguments):
@@ -116,7 +116,8 @@ def _level(scene, arguments):
             raise SceneError(f"{scene.source}: truth.kind is {kind}, so that there is no reference")
         return scene.truth["element"], scene.truth["n"]
     if arguments.element is None or arguments.n is None:
-        raise SceneError("give --element and --n, or --reference")
+        known = f"--element {scene.elements[-1]} --n {scene.levels[-1]}"
+        raise SceneError(f"give --element and --n, for instance {known}; or --reference")
     check_n(arguments.n)
     return arguments.element, arguments.n
 

@@ -19,7 +19,7 @@ from signorini.studies.steps import step_rows
 def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
-    add_output(parser, "the table, steps.csv", required=False)
+    add_output(parser, "the table, steps.csv", required=False, ending=".csv")
 
 
 def run(arguments):

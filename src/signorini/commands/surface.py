@@ -18,7 +18,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_mesh(parser)
     add_solution(parser)
-    add_output(parser, "the samples, .npz")
+    add_output(parser, "the samples, .npz", ending=".npz")
 
 
 def run(arguments):

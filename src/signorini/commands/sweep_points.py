@@ -39,7 +39,7 @@ def add_arguments(parser):
         metavar="DIGEST",
         help="of the code, where a workflow has it; points that other code found are solved again",
     )
-    add_output(parser, "what was found, .json")
+    add_output(parser, "what was found, .json", ending=".json")
 
 
 def run(arguments):

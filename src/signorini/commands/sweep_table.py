@@ -20,7 +20,7 @@ def add_arguments(parser):
     parser.add_argument(
         "bundles", nargs="+", metavar="BUNDLE", help="what `signorini sweep-points` wrote, .json"
     )
-    add_output(parser, "a row for each point, element and level, sweep.csv")
+    add_output(parser, "a row for each point, element and level, sweep.csv", ending=".csv")
     parser.add_argument(
         "--summary",
         nargs=2,

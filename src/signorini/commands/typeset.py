@@ -26,7 +26,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--strict", action="store_true", help="let a line or a table that is too wide be an error"
     )
-    add_output(parser, "the document, .pdf")
+    add_output(parser, "the document, .pdf", ending=".pdf")
 
 
 def run(arguments):

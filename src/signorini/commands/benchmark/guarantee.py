@@ -17,7 +17,7 @@ def add_arguments(parser):
     """Declare the command's arguments."""
     add_scene(parser)
     add_settings(parser)
-    add_output(parser, "the rows, .csv")
+    add_output(parser, "the rows, .csv", ending=".csv")
 
 
 def run(arguments):

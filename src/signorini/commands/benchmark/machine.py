@@ -14,7 +14,7 @@ from signorini.studies.machine import OURS, describe
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    add_output(parser, "the description, .json", required=False)
+    add_output(parser, "the description, .json", required=False, ending=".json")
 
 
 def run(arguments):

@@ -32,7 +32,7 @@ def add_arguments(parser):
     )
     parser.add_argument("--before", metavar="FILE", help="the row of the level before, .csv")
     add_settings(parser)
-    add_output(parser, "the row, .csv")
+    add_output(parser, "the row, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -23,7 +23,7 @@ def add_arguments(parser):
         "--mesh", metavar="FILE", help="the output of `signorini mesh`; made here if not given"
     )
     add_settings(parser)
-    add_output(parser, "the rows, .csv")
+    add_output(parser, "the rows, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -17,7 +17,7 @@ def add_arguments(parser):
     add_scene(parser)
     parser.add_argument("--diagonal", choices=DIAGONALS, required=True)
     add_quick(parser)
-    add_output(parser, "the errors, .csv")
+    add_output(parser, "the errors, .csv", ending=".csv")
 
 
 def run(arguments):

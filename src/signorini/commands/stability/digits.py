@@ -20,7 +20,7 @@ def add_arguments(parser):
     parser.add_argument("--samples", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--quick", action="store_true", help="coarse levels only")
-    add_output(parser, "a row for each number, .csv")
+    add_output(parser, "a row for each number, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -30,7 +30,7 @@ def add_arguments(parser):
         default=[],
         help="powers of two or ten, or numbers of periods or scenes",
     )
-    add_output(parser, "a row for each case, .csv")
+    add_output(parser, "a row for each case, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -20,7 +20,7 @@ def add_arguments(parser):
         required=True,
         help="levels n; for stretching, exponents of ten, negated",
     )
-    add_output(parser, "a row for each level, .csv")
+    add_output(parser, "a row for each level, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -31,7 +31,7 @@ def add_arguments(parser):
     parser.add_argument(
         "--time-limit", type=float, default=1.0, help="the time limit of a rival, in seconds"
     )
-    add_output(parser, "a row for each problem and solver, .csv")
+    add_output(parser, "a row for each problem and solver, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -12,7 +12,7 @@ from signorini.studies.theory.traces import trace_rows
 
 def add_arguments(parser):
     """Declare the command's arguments."""
-    add_output(parser, "the constants, .csv")
+    add_output(parser, "the constants, .csv", ending=".csv")
 
 
 def run(arguments):

@@ -196,7 +196,7 @@ BAD_INPUT = {
     ),
     "unknown rule": (
         VALID + "load_quadrature: gauss\n",
-        "expected centroid, midpoints, vertices, exact, nodal or a whole number",
+        "expected centroid, midpoints, vertices, exact, nodal or a whole number from 1 to 60",
     ),
     "rule a float": (VALID + "load_quadrature: 5.0\n", "load_quadrature: 5.0 is not valid"),
     "precision half": (

@@ -153,20 +153,6 @@ def test_mistake_in_a_field(tmp_path, mistake):
     assert "\n" not in message
 
 
-@pytest.mark.parametrize(
-    ("target", "said"),
-    [
-        ("results/smal/errors.csv", "there is no config/scenes/smal.yaml; did you mean small?"),
-        ("results/../../x/errors.csv", "No rule to produce"),
-    ],
-)
-def test_misspelt_target(fresh, target, said):
-    run = fresh.run(target)
-    assert run.code != 0
-    assert said in run.text
-    assert not (fresh / "results").exists()
-
-
 @pytest.mark.parametrize("path", ["../../../secret.msh", "/etc/passwd", "link.msh", "../meshes"])
 def test_a_mesh_file_out_of_the_tree(fresh, path):
     (fresh.folder.parent / "secret.msh").write_text("mine")

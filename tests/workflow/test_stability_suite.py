@@ -135,6 +135,7 @@ def test_other_seeds_are_refused(tmp_path):
     (error,) = run.errors
     assert error.endswith(
         'seeds: "sometimes" is not valid; expected fixed, random or a whole number'
+        " from 1 to 999999999999"
     )
 
 

@@ -31,11 +31,21 @@ def written(name):
         place = (
             f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
         )
-        raise SignoriniError(f"{place}: there is no {path}; {nearest(name, known_scenes())}")
+        raise SignoriniError(f"{place}: {missing_scene(name, path)}")
     found = read_scene(path)
     for line in found.warnings:
         print(f"warning: {path}: {line}", file=sys.stderr)
     return found
+
+
+def missing_scene(name, path):
+    """What to say of a scene whose file is not there: where it is, or what else there is."""
+    if os.path.lexists(path):
+        return f"{path} is a folder or a link to nothing; put the scene's file there"
+    elsewhere = sorted(filter(Path.is_file, Path("config/scenes").rglob(f"{name}.y*ml")))
+    if elsewhere:
+        return f"there is no {path}, but {elsewhere[0]}; move it there"
+    return f"there is no {path}; {nearest(name, known_scenes())}"
 
 
 def check_once(asked):

@@ -1,6 +1,6 @@
 # What the rules of a sweep ask of a scene.
 from signorini.scene.sweep import UNSWEPT, sweep_points
-from signorini.sweeps.bundles import bundle, bundles
+from signorini.sweeps.bundles import bundles, numbered
 
 
 def sweep_of(name):
@@ -19,6 +19,12 @@ def bundle_count(name):
     return len(bundles(sweep_of(name), None if asked == "auto" else asked))
 
 
+@cache
+def bundles_of(name, count):
+    """The points of a scene's sweep in so many bundles, which are made once and not for each job."""
+    return bundles(sweep_of(name), count)
+
+
 def bundle_files(wildcards):
     count = bundle_count(wildcards.scene)
     folder = f"results/{wildcards.scene}/sweep"
@@ -28,7 +34,7 @@ def bundle_files(wildcards):
 @reported
 def bundle_points(wildcards):
     """A parameter: the values of a bundle's points."""
-    points = bundle(sweep_of(wildcards.scene), int(wildcards.bundle), int(wildcards.of))
+    points = numbered(bundles_of(wildcards.scene, int(wildcards.of)), int(wildcards.bundle))
     return as_json([point.values for point in points])
 
 

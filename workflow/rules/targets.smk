@@ -1,6 +1,8 @@
 # What is built: by the scenes that the configuration asks for, and of each what it asks for itself.
 import atexit
 
+from snakemake.logging import logger
+
 # A report is of what is built: Snakemake refuses one with a file that is not there.
 REPORTING = any(word.partition("=")[0] == "--report" for word in sys.argv)
 WITHOUT = [program for program in ("latexmk", "pdflatex") if not shutil.which(program)]
@@ -41,6 +43,64 @@ def final_output():
         file for name in CONFIG["scenes"] for file in scene_output(name) + publication_output(name)
     ]
     return list(filter(os.path.exists, files)) if REPORTING else files
+
+
+def files_of(name):
+    """What a scene makes, below its folder; the many solutions last."""
+    files = scene_output(name) + publication_output(name)
+    return [file.removeprefix(f"results/{name}/") for file in sorted(files, key=is_solution)]
+
+
+def is_solution(file):
+    return "/solutions/" in file
+
+
+def rule_names():
+    """The rules that an argument may name: as a target those without wildcards."""
+    told_aside = {"--until", "-U", "--omit-from", "-O", "--forcerun", "-R"} & set(sys.argv)
+    rules = [rule for rule in workflow.rules if told_aside or not rule.has_wildcards()]
+    return sorted(rule.name for rule in rules if rule.name != "default")
+
+
+def instead_of(target):
+    """What to type in place of a target that no rule makes."""
+    path = Path(target)
+    if path.is_relative_to(PROJECT):
+        return f"name it from the project's folder: {path.relative_to(PROJECT)}"
+    in_results = path.parts[:1] == ("results",)
+    name, *below = path.parts[in_results:] or ("",)
+    if name in known_scenes() and not below:
+        return f"a scene is built by snakemake --cores 2 --config 'scenes=[{name}]'"
+    if not (in_results and below):
+        return nearest(target, rule_names())
+    if name in known_scenes():
+        return nearest("/".join(below), files_of(name))
+    if name in ("studies", "quick"):
+        return nearest(below[0], rule_names())
+    return f"there is no scene {name}; {nearest(name, known_scenes())}"
+
+
+# What Snakemake says of a target -> what follows, of the words that it names.
+REMEDIES = {
+    r"No rule to produce (.+) \(if you use": lambda target: f"{target}: {instead_of(target)}",
+    r"Target (rule)s may not contain wildcards": lambda rule: (
+        f"this {rule} is of a scene: name a file that it makes, such as results/NAME/errors.csv, or"
+        " ask for a scene, --config 'scenes=[NAME]'"
+    ),
+}
+
+
+def add_remedy(record):
+    """Say below what Snakemake says of a wrong target what to type in its place."""
+    for said, remedy in REMEDIES.items():
+        found = re.search(said, str(record.msg))
+        if found:
+            record.msg = f"{record.msg}\nerror: {remedy(found[1])}"
+    return True
+
+
+if workflow.is_main_process:
+    logger.addFilter(add_remedy)
 
 
 def untypeset():

@@ -197,7 +197,13 @@ def _alternatives(schema):
 def _alternative(part):
     if "enum" in part:
         return ", ".join(map(str, part["enum"]))
-    return _TYPES.get(part.get("type"), "another value")
+    return _TYPES.get(part.get("type"), "another value") + _between(part)
+
+
+def _between(part):
+    """The range of a number that has two ends, in words after its type."""
+    ends = part.get("minimum"), part.get("maximum")
+    return "" if None in ends else f" from {ends[0]} to {ends[1]}"
 
 
 def _describe(schema, key):

@@ -71,7 +71,32 @@ def bundle(section, number, most=None):
     >>> len(bundle(section, 1, most=2))
     13
     """
-    made = bundles(section, most)
+    return numbered(bundles(section, most), number)
+
+
+def numbered(made, number):
+    """One of the bundles that were made, by its number from 1.
+
+    Parameters
+    ----------
+    made : tuple of tuple of Point
+        As `bundles` returns them.
+    number : int
+
+    Returns
+    -------
+    tuple of Point
+
+    Raises
+    ------
+    SceneError
+        If there is no such bundle.
+
+    Examples
+    --------
+    >>> numbered((("a", "b"), ("c",)), 2)
+    ('c',)
+    """
     if not 1 <= number <= len(made):
         raise SceneError(f"bundle {number}: the sweep has bundles 1 to {len(made)}")
     return made[number - 1]

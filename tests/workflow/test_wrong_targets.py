@@ -3,7 +3,7 @@
 import pytest
 from project import Project, side_by_side
 
-TARGET = "this rule is of a scene: name a file that it makes, such as results/NAME/errors.csv"
+TARGET = "no target: name a file, such as results/NAME/errors.csv, or ask for a scene, --config"
 # Arguments -> what the last line says.
 WRONG = {
     ("results/smal/errors.csv",): "there is no config/scenes/smal.yaml; did you mean small?",

@@ -82,10 +82,10 @@ def instead_of(target):
 
 # What Snakemake says of a target -> what follows, of the words that it names.
 REMEDIES = {
-    r"No rule to produce (.+) \(if you use": lambda target: f"{target}: {instead_of(target)}",
-    r"Target (rule)s may not contain wildcards": lambda rule: (
-        f"this {rule} is of a scene: name a file that it makes, such as results/NAME/errors.csv, or"
-        " ask for a scene, --config 'scenes=[NAME]'"
+    r"to produce (.+) \(if you use": lambda target: f"{target}: {instead_of(target)}",
+    r"(Target rules) may not contain wildcards": lambda _: (
+        "what makes files of any scene is no target: name a file, such as results/NAME/errors.csv, or ask for a scene,"
+        " --config 'scenes=[NAME]'"
     ),
 }
 

@@ -160,7 +160,7 @@ def test_many_neighbouring_critical_points_are_one_interval():
     for k, row in enumerate(rows):
         row["critical"] = row["s"] + 1 / 64 if 5 < k < 15 and row["element"] == "P1" else None
     figure = draw_contact_line(rows)
-    assert "contact by turns" in legend(figure)
+    assert "alternating contact" in legend(figure)
     assert "critical point" not in legend(figure)
     for axes in figure.axes:
         (band,) = axes.patches

@@ -55,10 +55,10 @@ def test_boundary_parts_differ_in_more_than_colour():
 def test_contact_by_turns_is_a_bar_of_its_own():
     pieces = np.array([[[0.0, 0.0], [0.25, 0.0]], [[0.25, 0.0], [0.5, 0.0]]])
     figure = draw_field(sloping_field() | {"by_turns": pieces})
-    assert "contact by turns" in legend(figure)
-    bar = line(figure, "contact by turns").get_xydata()
+    assert "alternating contact" in legend(figure)
+    bar = line(figure, "alternating contact").get_xydata()
     np.testing.assert_array_equal(bar, [[0, 0], [0.25, 0], [0.5, 0]])
-    assert "contact by turns" not in legend(draw_field(sloping_field()))
+    assert "alternating contact" not in legend(draw_field(sloping_field()))
 
 
 def test_critical_points_of_a_field_are_marked():

@@ -222,9 +222,9 @@ def _level(line):
 def _draw_critical_points(panels, lines):
     """A line through all panels in the colour of the element, and a point on the obstacle.
 
-    Where contact goes by turns, a band instead.
+    Where contact and gaps alternate, a band instead.
     """
-    point, band = "critical point", "contact by turns"
+    point, band = "critical point", "alternating contact"
     for element, line in lines.items():
         colour = ELEMENT_STYLES[element]["color"]
         style = {

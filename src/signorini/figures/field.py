@@ -217,7 +217,7 @@ def _polyline(pieces):
 
 
 def style_of_turns(thickness=1.0):
-    """Options of a line where contact goes by turns: white within black.
+    """Options of a line where contact and gaps alternate: white within black.
 
     Parameters
     ----------
@@ -235,12 +235,12 @@ def style_of_turns(thickness=1.0):
         "path_effects": [Stroke(linewidth=outer, foreground=BLACK), Normal()],
         "solid_joinstyle": "round",
         "solid_capstyle": "round",
-        "label": "contact by turns",
+        "label": "alternating contact",
     }
 
 
 def _draw_turns(axes, pieces, frame, thickness):
-    """Intervals on which contact goes by turns: as the marker of a critical point, drawn out."""
+    """Intervals where contact and gaps alternate: as the marker of a critical point, drawn out."""
     if not len(pieces):
         return
     points = frame.place(_polyline(pieces).T)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from signorini.figures.style import GREY
 
 GAP = 1.6  # the least factor between the lowest curve and the triangle
-AGREED = 0.4  # how far slopes may be apart to show one rate
+AGREED = 0.3  # how far slopes may be apart to show one rate
 LEAST = 0.25  # below it a slope is called none
 NEAR = 0.12  # how far their mean may be from a multiple of a half to be called by it
 
@@ -21,7 +21,7 @@ def order_of(slopes):
     Returns
     -------
     float
-        With two decimals; 0 where they show none: they are apart, or hardly above zero.
+        With two digits; 0 where they show none: they are apart, or hardly above zero.
 
     Examples
     --------
@@ -35,7 +35,7 @@ def order_of(slopes):
         return 0.0
     mean = math.fsum(found) / len(found)
     half = round(2 * mean) / 2
-    order = half if abs(mean - half) <= NEAR else round(mean, 2)
+    order = half if abs(mean - half) <= NEAR else float(f"{mean:.2g}")
     return order if order >= LEAST else 0.0
 
 
@@ -113,4 +113,4 @@ def name_of(order):
     >>> name_of(2), name_of(1.5), name_of(0.83)
     ('2', '3/2', '0.83')
     """
-    return f"{order:.2f}" if (2 * order) % 1 else str(Fraction(order))
+    return f"{order:.2g}" if (2 * order) % 1 else str(Fraction(order))

@@ -133,7 +133,7 @@ def resultants(lines):
 
 
 def critical_runs(line):
-    """Tell critical points from intervals on which contact goes by turns.
+    """Tell critical points from intervals on which contact and gaps alternate.
 
     Where u touches the obstacle without pressing on it, the signs of round-off make contact of
     every second point or so; the many critical points there are one interval.

@@ -30,7 +30,7 @@ def field_of(mesh, solution, most_triangles=20000):
         ``edges_dirichlet``, ``edges_contact`` and ``edges_neumann`` (2, k), vertices of the
         boundary facets in the order in which one walks along them;
         ``critical_points`` (c, 2), those that stand alone; ``by_turns`` (b, 2, 2), start and end
-        (x, y) of the pieces of intervals on which contact goes by turns, see
+        (x, y) of the pieces of intervals on which contact and gaps alternate, see
         `contact_side.critical_runs`; ``binding`` (m, 2, 2), the same of the pieces of contact
         facets that bind, in the same order.
 

@@ -168,7 +168,7 @@ def _line(mesh, solution):
     """The contact line, its components apart by NaN; None without a contact part.
 
     ``critical`` has s, x, y and the obstacle of critical points that stand alone, ``turns`` the
-    ends of the intervals on which contact goes by turns.
+    ends of the intervals on which contact and gaps alternate.
     """
     rows = contact_rows(mesh, solution)
     if not rows:

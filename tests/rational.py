@@ -100,8 +100,11 @@ def _contact(rows):
     for active in product((False, True), repeat=size):
         free = [k for k in range(size) if not active[k]]
         system = [[rows[i][j] for j in free] + [rows[i][-1]] for i in free]
-        _eliminate(system, len(free))
-        values = _back(system, len(free), [])
+        try:
+            _eliminate(system, len(free))
+            values = _back(system, len(free), [])
+        except ZeroDivisionError:  # nothing holds the body
+            continue
         w = [Fraction(0)] * size
         for k, value in zip(free, values, strict=True):
             w[k] = value

@@ -10,7 +10,7 @@ from skfem.helpers import dot, grad
 
 from builders import delaunay, grid, perturbed
 from signorini.fem.elements import ELEMENTS
-from signorini.fem.stiffness import assemble_stiffness, facet_couplings
+from signorini.fem.stiffness import _exact_couplings, assemble_stiffness, facet_couplings
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 
@@ -83,36 +83,37 @@ def test_the_coarse_matrix_is_the_galerkin_product():
 
 
 def couplings(mesh):
-    """k_ij, shape (3, nt); in extended precision on stretched cells, where both products cancel."""
+    """k_ij, shape (3, nt); those of stretched cells are held against rational numbers below."""
     if isinstance(mesh, Grid) or mesh.stretch <= 8:
         return facet_couplings(mesh)
-    a, b, c = (mesh.p[:, corner].astype(np.longdouble) for corner in mesh.t)
-    edges = b - a, c - b, a - c
-    area = np.abs(edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0])
-    pairs = ((1, 2), (2, 0), (0, 1))
-    return np.stack([0.5 * (edges[i] * edges[j]).sum(axis=0) / area for i, j in pairs])
+    return _exact_couplings(mesh, None)
 
 
-def test_needles_across_the_axes_have_couplings_right_to_the_last_bit():
-    """One turned by 30 degrees, a million times as long as high: in double precision ten digits
-    would be lost.
-    """
-    turn, height = np.array([[np.sqrt(0.75), -0.5], [0.5, np.sqrt(0.75)]]), 1e-6
-    p = turn @ np.array([[0.0, 1.0, 0.4], [0.0, 0.0, height]])
-    mesh = Triangulation(
-        p, np.array([[0], [1], [2]]), {"neumann": np.array([[0, 1, 0], [1, 2, 2]])}
-    )
-    A = assemble_stiffness(mesh, ELEMENTS["P1"]).toarray()
+@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+def test_needles_across_the_axes_have_couplings_right_to_the_last_bit(height):
+    """In double precision most digits would be lost, and in extended precision the last ones."""
+    rng = np.random.default_rng(0)
+    for angle, along, unit in rng.uniform([0.0, 0.1, -30.0], [2.0 * np.pi, 0.9, 30.0], (50, 3)):
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        p = 10.0**unit * turn @ np.array([[0.0, 1.0, along], [0.0, 0.0, height]])
+        mesh = Triangulation(
+            p, np.array([[0], [1], [2]]), {"neumann": np.array([[0, 1, 0], [1, 2, 2]])}
+        )
+        A = assemble_stiffness(mesh, ELEMENTS["P1"]).toarray()
+        found = [A[0, 1], A[1, 2], A[0, 2]]
+        np.testing.assert_allclose(found, rational_couplings(p), rtol=2.3e-16)
+
+
+def rational_couplings(p):
+    """k_01, k_12 and k_02 of one triangle, whose corners (2, 3) are taken as exact."""
     corners = [[Fraction(value) for value in corner] for corner in p.T.tolist()]
     ab, bc, ca = (
         [q - r for q, r in zip(corners[j], corners[i], strict=True)]
         for i, j in ((0, 1), (1, 2), (2, 0))
     )
     doubled = 2 * abs(ab[0] * bc[1] - ab[1] * bc[0])
-    expected = [
-        float((u[0] * v[0] + u[1] * v[1]) / doubled) for u, v in ((bc, ca), (ca, ab), (ab, bc))
-    ]
-    np.testing.assert_allclose([A[0, 1], A[1, 2], A[0, 2]], expected, rtol=1e-15)
+    products = (u[0] * v[0] + u[1] * v[1] for u, v in ((bc, ca), (ca, ab), (ab, bc)))
+    return [float(product / doubled) for product in products]
 
 
 def test_p1_is_the_matrix_that_its_couplings_add_up_to(mesh):

@@ -8,10 +8,11 @@ with the shape functions phi of P1. P1 couples i and j by k_ij, CR the two other
 import numpy as np
 
 from signorini.chunks import chunk_slices
+from signorini.fem.error_free import exact_sum, product_of_pairs, sum_of_pairs
 from signorini.mesh.grid import Grid
 
 # Cells longer than so many of their heights, across the axes, keep few digits of a coupling, which
-# extended precision makes good.
+# pairs of doubles make good.
 _STRETCHED = 8.0
 
 
@@ -44,7 +45,7 @@ def assemble_stiffness(mesh, element, coefficient=None):
            [ 0. , -0.5, -0.5,  1. ]])
     """
     stretched = not isinstance(mesh, Grid) and mesh.stretch > _STRETCHED
-    couplings = (_extended_couplings if stretched else facet_couplings)(mesh, coefficient)
+    couplings = (_exact_couplings if stretched else facet_couplings)(mesh, coefficient)
     A = element.stiffness_matrix(mesh, couplings)
     A.eliminate_zeros()
     return A
@@ -85,14 +86,44 @@ def facet_couplings(mesh, coefficient=None):
     return k if coefficient is None else k * coefficient
 
 
-def _extended_couplings(mesh, coefficient):
-    """The same in extended precision.
+def _exact_couplings(mesh, coefficient):
+    """The same to the last digit, in extended precision where the machine has it.
 
-    A scalar product and a cross product of edges both may cancel.
+    A scalar product and a cross product of edges both may cancel: each is summed in pairs.
     """
-    x, y = mesh.p.astype(np.longdouble)[:, mesh.t]
-    dx, dy = (np.roll(part, -1, axis=0) - part for part in (x, y))
-    one, other = [1, 2, 0], [2, 0, 1]
-    scalar = dx[one] * dx[other] + dy[one] * dy[other]
-    k = 0.5 * scalar / np.abs(dx[0] * dy[1] - dx[1] * dy[0])
+    k = np.empty((3, mesh.number_of_triangles), dtype=np.longdouble)
+    for cells in chunk_slices(mesh.number_of_triangles):
+        edges = _exact_edges(mesh.p[:, mesh.t[:, cells]])
+        area = _cross_product(*edges[:2])
+        for facet in range(3):
+            k[facet, cells] = _scalar_product(edges[facet - 2], edges[facet - 1]) / area
+    k *= 0.5
     return k if coefficient is None else k * coefficient
+
+
+def _exact_edges(corners):
+    """The edges 01, 12 and 20 of triangles (2, 3, m): x and y of each a pair without rounding.
+
+    They are scaled by a power of two, that of each triangle, which no coupling feels.
+    """
+    high, low = exact_sum(np.roll(corners, -1, axis=1), -corners)
+    exponent = -np.frexp(np.abs(high).max(axis=(0, 1)))[1]
+    high, low = np.ldexp(high, exponent), np.ldexp(low, exponent)
+    return [[(high[axis, k], low[axis, k]) for axis in range(2)] for k in range(3)]
+
+
+def _scalar_product(one, other):
+    """That of two edges, longdouble, shape (m,)."""
+    products = [product_of_pairs(a, b) for a, b in zip(one, other, strict=True)]
+    return _rounded(sum_of_pairs(*products))
+
+
+def _cross_product(one, other):
+    """The size of that of two edges, longdouble, shape (m,)."""
+    high, low = product_of_pairs(one[1], other[0])
+    difference = sum_of_pairs(product_of_pairs(one[0], other[1]), (-high, -low))
+    return np.abs(_rounded(difference))
+
+
+def _rounded(pair):
+    return pair[0].astype(np.longdouble) + pair[1]

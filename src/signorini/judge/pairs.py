@@ -6,64 +6,7 @@ Accurate sum and dot product, SIAM J. Sci. Comput. 26 (2005) 1955-1988, algorith
 
 import numpy as np
 
-_SPLITTER = 2.0**27 + 1
-
-
-def exact_sum(a, b):
-    """Two doubles as their rounded sum, and what it leaves out (Knuth).
-
-    Parameters
-    ----------
-    a, b : float or ndarray
-
-    Returns
-    -------
-    total, rest : float or ndarray
-        With total + rest = a + b exactly.
-
-    Examples
-    --------
-    >>> exact_sum(1e16, 1.0)
-    (1e+16, 1.0)
-    """
-    total = a + b
-    part = total - a
-    return total, (a - (total - part)) + (b - part)
-
-
-def exact_product(a, b):
-    """Two doubles as their rounded product, and what it leaves out (Dekker, Veltkamp).
-
-    Parameters
-    ----------
-    a, b : float or ndarray
-        Below 1e292, and their product's last bits above the smallest numbers.
-
-    Returns
-    -------
-    product, rest : float or ndarray
-        With product + rest = a b exactly.
-
-    Examples
-    --------
-    >>> product, rest = exact_product(1.0 + 2.0**-40, 1.0 + 2.0**-40)
-    >>> (product - 1.0) == 2.0**-39, rest == 2.0**-80
-    (True, True)
-    """
-    product = a * b
-    a_high, a_low = _split(a)
-    b_high, b_low = _split(b)
-    rest = a_high * b_high - product
-    rest = rest + a_high * b_low
-    rest = rest + a_low * b_high
-    return product, rest + a_low * b_low
-
-
-def _split(a):
-    """The upper and the lower half of the digits of a double."""
-    wide = _SPLITTER * a
-    high = wide - (wide - a)
-    return high, a - high
+from signorini.fem.error_free import exact_product, exact_sum
 
 
 def residual(A, high, low, b):

@@ -161,15 +161,32 @@ class _FactorisedProblem:
         problem = self.problem
         u[problem.contact[active]] = problem.lower[active]
         u = u + self.displacement(residual(problem.A, problem.b, u, self.sums), active)[0]
+        last = np.inf
         for _ in range(_CORRECTIONS):
             correction, force, remaining = self._correction(u, active)
             # The correction goes to the gap before u rounds it off.
             gap = (u[problem.contact] - problem.lower) + correction[problem.contact]
             u = u + correction
-            size = np.ptp(u)
-            if largest(correction) <= _SMALL * size and remaining[0] <= _CERTAIN * size:
+            size, step = np.ptp(u), largest(correction)
+            small = step <= _SMALL * size and remaining[0] <= _CERTAIN * size
+            if small and (step > 0.5 * last or self._is_weak(correction, u)):
                 break
+            last = step
         return u, gap, force, remaining
+
+    def _is_weak(self, correction, u):
+        """Whether the rounding of a correction does no more to any row than that of the forces.
+
+        In a stiff part a correction that is small beside u may make more of them than u does.
+        """
+        if self.well_conditioned:
+            return True
+        problem = self.problem
+        _, forces = residual_and_fluxes(problem.A, problem.b, u, sums=self.sums)
+        forces += np.abs(problem.b)
+        forces = np.maximum(forces, _SMALL * forces.max())
+        by_correction = abs(problem.A) @ np.abs(correction)
+        return bool(np.all((by_correction <= forces)[problem.free]))
 
     def _correction(self, u, active):
         """What is missing of u; the contact forces then; and what may still be missing of both.

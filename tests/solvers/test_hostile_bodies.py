@@ -1,0 +1,57 @@
+"""Obtuse triangles of stiff and soft material, held by the inequality alone, against rational
+numbers: no statement is better than the truth.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini
+from rational import exact_solution, rounded
+from signorini.exceptions import SolverError
+from signorini.solvers import solve
+
+VERTICES = [
+    [-0.74, -2.04, 0.0, -1.59, -1.2, -0.84, -2.22, -1.38],
+    [-0.16, 0.28, 0.0, 0.38, -0.26, 0.54, 0.24, -0.3],
+]
+TRIANGLES = [[0, 2, 5, 4, 4, 0], [1, 5, 3, 1, 6, 3], [4, 0, 0, 6, 7, 1]]
+
+
+def body(rng):
+    """Loads that nearly balance each other, and one facet that is near its obstacle."""
+    outside = {"outside": lambda x, y: x == x}
+    mesh = signorini.triangulation((np.array(VERTICES), np.array(TRIANGLES)), outside)
+    problem = signorini.problem(mesh, "CR", f=0, contact="outside")
+    b, lower = np.full(problem.b.size, -1.0 / 12.0), np.full(problem.contact.size, -1e8)
+    b[rng.integers(b.size)] = 1.0 - 10.0 ** -rng.integers(9, 14)
+    lower[rng.integers(lower.size)] = 0.0
+    stiff = np.where(rng.random(6) < 0.5, 1e12, 1.0)
+    return replace(problem, b=b, lower=lower, coefficient=stiff)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_forces_are_as_accurate_as_stated_where_loads_balance(seed):
+    """A correction that is small beside u may push stiff triangles harder than all of u does."""
+    problem = body(np.random.default_rng(seed))
+    try:
+        solution = solve(problem, method="direct")
+    except SolverError:  # of what little is left of the load no digit is sure
+        return
+    u, force, active = exact_solution(problem)
+    off_u = np.abs(rounded(u) - solution.u).max() / np.ptp(solution.u)
+    off_force = np.abs(rounded(force) - solution.multiplier).max() / force_scale(problem, solution)
+    assert off_u <= 10.0 * solution.accuracy
+    assert off_force <= 10.0 * solution.multiplier_accuracy
+    wrong = (solution.active != np.array(active)) & ~solution.undecided
+    assert not wrong.any()
+
+
+def force_scale(problem, solution):
+    """What errors of forces are relative to: the largest that is certain, but not much less than
+    what acts.
+    """
+    _, fluxes, _ = problem.contact_fluxes(solution.u)
+    acting = np.max(fluxes + np.abs(problem.b[problem.contact]))
+    return max(np.max(solution.multiplier[~solution.undecided], initial=0.0), 1e-6 * acting)

@@ -88,6 +88,16 @@ def perturbed(n, seed=0, labels=PAPER, diagonal="falling"):
     return labelled(MeshTri(p, mesh.t), labels)
 
 
+def scattered(n, seed=0, labels=PAPER):
+    """A Delaunay triangulation of the unit square that no mesh was refined to: a grid's inner
+    vertices moved by up to 0.35 of a cell, and joined anew.
+    """
+    mesh = grid(n).skfem
+    p, inner = mesh.p.copy(), mesh.interior_nodes()
+    p[:, inner] += np.random.default_rng(seed).uniform(-0.35 / n, 0.35 / n, (2, inner.size))
+    return labelled(MeshTri(p, Delaunay(p.T).simplices.T), labels)
+
+
 def nodes(problem):
     """Coordinates of every degree of freedom, shape (2, ndof)."""
     return find_element(problem.element).nodes(problem.mesh, np.arange(problem.b.size))

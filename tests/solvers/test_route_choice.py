@@ -4,12 +4,13 @@ import sys
 
 import pytest
 
-from builders import delaunay, grid, statement
+from builders import delaunay, grid, scattered, statement
 from signorini.exceptions import SolverError
 from signorini.fem.elements import ELEMENTS
 from signorini.fem.problem import discretize_on
 from signorini.mesh.triangulation import Triangulation
 from signorini.solvers import METHODS, solve
+from signorini.solvers.routes import choose_route
 
 CHOICES = {
     "grid": (
@@ -48,6 +49,24 @@ def test_auto_takes_the_cheapest_route_that_applies_and_says_why(element, case):
     solution = solve(discretize_on(mesh(), element, statement(f=-1, **data)))
     assert solution.method == method
     assert reason in solution.reason
+
+
+JUMP = "where(x < 0.5, 1, 100)"
+UNREFINED = {
+    "large": (88, {}, "multigrid", "but no cell is stretched, no coefficient jumps"),
+    "small": (80, {}, "direct", "the mesh is not a uniform grid"),
+    "jump": (88, {"coefficient": JUMP}, "direct", "and not refined where the coefficient jumps"),
+}
+
+
+@pytest.mark.parametrize("case", UNREFINED)
+def test_a_large_mesh_of_ones_own_takes_multigrid_where_levels_without_meshes_are_good(case):
+    n, data, method, reason = UNREFINED[case]
+    problem = discretize_on(scattered(n), "CR", statement(f=-1, **data))
+    assert (problem.b.size > 20_000) == (n == 88)
+    found = choose_route(problem, "auto")
+    assert found[0] == method
+    assert found[1].endswith(reason)
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -48,7 +48,7 @@ def solve_to_discretisation(problem, guess=None):
     Returns
     -------
     RouteResult or None
-        None where it cannot be done so: no level below, nothing fixed, or no fast convergence.
+        None where it cannot be done so: no mesh below, nothing fixed, or no fast convergence.
 
     Examples
     --------
@@ -58,7 +58,8 @@ def solve_to_discretisation(problem, guess=None):
     >>> result.algebraic_error < 0.1 * result.discretisation_error
     True
     """
-    if not problem.fixed.size:
+    # Levels without a mesh tell nothing of the discretisation.
+    if not problem.fixed.size or problem.mesh.coarser() is None:
         return None
     levels, obstacles = levels_and_obstacles(problem)
     if len(levels) < 2 or levels[0].robust:

@@ -3,8 +3,9 @@
 CR stands on conforming P1 on the same mesh, which it contains; P1 stands on P1 on the mesh it was
 refined from, whose matrix equals the Galerkin product, but for cells at curved sides, where it is
 near. Below the coarsest mesh, where there is none, and where cells are stretched, levels follow the
-large entries of the matrix (Ruge & Stüben 1987, by PyAMG). After Brandt, Math. Comp. 31 (1977), and
-Braess & Verfürth, SIAM J. Numer. Anal. 27 (1990), for the nonconforming element.
+large entries of the matrix (`algebraic`); those of a large matrix whose entries are all alike join
+patches of unknowns (`aggregation`). After Brandt, Math. Comp. 31 (1977), and Braess & Verfürth,
+SIAM J. Numer. Anal. 27 (1990), for the nonconforming element.
 """
 
 from dataclasses import replace
@@ -17,6 +18,7 @@ from signorini.fem.stiffness import assemble_stiffness
 from signorini.mesh.bisection import over_ancestors
 from signorini.mesh.curved import curved_vertices
 from signorini.mesh.grid import Grid
+from signorini.solvers.aggregation import aggregation_levels
 from signorini.solvers.algebraic import algebraic_levels
 from signorini.solvers.conditioning import JUMP, has_jumps, is_regular
 from signorini.solvers.level import COARSEST_SIZE, Level
@@ -25,6 +27,7 @@ from signorini.solvers.level import COARSEST_SIZE, Level
 # more meshes than these are passed over for it; measured.
 _SHARE = 0.5
 _PASSED_OVER = 3
+_CLASSICAL_UP_TO = 5_000  # unknowns up to which fewer cycles are worth larger levels; measured
 
 
 def build_hierarchy(problem):
@@ -65,9 +68,9 @@ def build_hierarchy(problem):
         robust = robust or not follows
         levels.append(Level(A, P))
         A = assemble_stiffness(mesh, ELEMENTS["P1"], k)
-    below = algebraic_levels(A)
     robust = robust or (has_jumps(k) and (ends is not None or problem.mesh.coarser() is None))
-    levels += below
+    classical = robust or A.shape[0] <= _CLASSICAL_UP_TO
+    levels += (algebraic_levels if classical else aggregation_levels)(A)
     return [replace(level, robust=True) for level in levels] if robust else levels
 
 

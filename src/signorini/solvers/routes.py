@@ -75,20 +75,39 @@ def _general_route(problem, why_not, accuracy):
     """The same where the fourier route does not apply, and why it does not."""
     if problem.b.size <= _DIRECT_UP_TO[accuracy]:
         return "direct", why_not
-    from signorini.solvers.conditioning import is_nested, is_regular
+    from signorini.solvers.conditioning import is_nested
 
     if is_nested(problem.mesh):
         return "multigrid", f"{why_not}, but refined"
-    if is_regular(problem.mesh) and problem.contact.size > _DENSE_CONTACT_UP_TO:
+    return _unrefined_route(problem, why_not)
+
+
+def _unrefined_route(problem, why_not):
+    """The same on a mesh without coarser ones, or with stretched cells."""
+    from signorini.solvers.conditioning import has_jumps, is_regular
+
+    regular, jumps = is_regular(problem.mesh), has_jumps(problem.coefficient)
+    if regular and not jumps and problem.b.size > _DIRECT_UP_TO["full"]:
+        return (
+            "multigrid",
+            f"{why_not}, but no cell is stretched, no coefficient jumps",
+        )
+    if regular and problem.contact.size > _DENSE_CONTACT_UP_TO:
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
-        return "direct", f"{why_not}, and not refined or of stretched cells"
+        return "direct", f"{why_not}, and {_what_slows_levels(regular, jumps)}"
     if stretched := _why_not("multigrid", problem):
         raise SolverError(
             f"domain: too large for a factorisation, and {stretched}; "
             "stretch cells less, or use fewer"
         )
     return "multigrid", f"{why_not}, and too large for a factorisation"
+
+
+def _what_slows_levels(regular, jumps):
+    if not regular:
+        return "of stretched cells"
+    return "not refined where the coefficient jumps" if jumps else "not refined"
 
 
 def _why_not(method, problem):

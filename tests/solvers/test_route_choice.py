@@ -2,13 +2,15 @@
 
 import sys
 
+import numpy as np
 import pytest
 
 from builders import delaunay, grid, scattered, statement
 from signorini.exceptions import SolverError
 from signorini.fem.elements import ELEMENTS
-from signorini.fem.problem import discretize_on
+from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.triangulation import Triangulation
+from signorini.scene.read import load_scene
 from signorini.solvers import METHODS, solve
 from signorini.solvers.routes import choose_route
 
@@ -67,6 +69,18 @@ def test_a_large_mesh_of_ones_own_takes_multigrid_where_levels_without_meshes_ar
     found = choose_route(problem, "auto")
     assert found[0] == method
     assert found[1].endswith(reason)
+
+
+def test_where_multigrid_leaves_signs_open_on_such_a_mesh_the_direct_route_is_asked():
+    scene = load_scene("config/scenes/uniform-load.yaml")  # neither gap nor force: biactive
+    problem = discretize(scene, "CR", 96)
+    asked = solve(problem, "multigrid")
+    assert asked.undecided.any()
+    solution, direct = solve(problem), solve(problem, "direct")
+    assert solution.method == "direct"
+    assert solution.reason.endswith("but multigrid leaves signs or digits open")
+    assert solution.status == direct.status == "solved"
+    assert np.array_equal(solution.u, direct.u)
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -92,9 +92,9 @@ def _unrefined_route(problem, why_not):
             "multigrid",
             f"{why_not}, but no cell is stretched, no coefficient jumps",
         )
-    if regular and problem.contact.size > _DENSE_CONTACT_UP_TO:
+    if regular and not has_dense_contact(problem):
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
-    if fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes):
+    if factors_fit(problem):
         return "direct", f"{why_not}, and {_what_slows_levels(regular, jumps)}"
     if stretched := _why_not("multigrid", problem):
         raise SolverError(
@@ -102,6 +102,30 @@ def _unrefined_route(problem, why_not):
             "stretch cells less, or use fewer"
         )
     return "multigrid", f"{why_not}, and too large for a factorisation"
+
+
+def factors_fit(problem):
+    """Whether this machine can hold the factors of a problem.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> factors_fit(discretize(load_scene("config/scenes/paper.yaml"), "CR", 8))
+    True
+    """
+    return fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes)
+
+
+def has_dense_contact(problem):
+    """Whether a problem has so few contact dofs that their matrix may be dense.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> has_dense_contact(discretize(load_scene("config/scenes/paper.yaml"), "CR", 8))
+    True
+    """
+    return problem.contact.size <= _DENSE_CONTACT_UP_TO
 
 
 def _what_slows_levels(regular, jumps):

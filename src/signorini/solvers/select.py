@@ -7,11 +7,17 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
-from signorini.memory import fits
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
+from signorini.solvers.conditioning import accuracy_loss_causes, is_nested
 from signorini.solvers.proof import accuracy_of, proved_status
 from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult
-from signorini.solvers.routes import ALL_METHODS, REQUESTED, choose_route
+from signorini.solvers.routes import (
+    ALL_METHODS,
+    REQUESTED,
+    choose_route,
+    factors_fit,
+    has_dense_contact,
+)
 from signorini.solvers.scaling import (
     at_rest,
     exponent_of,
@@ -130,8 +136,8 @@ def _at_rest(problem, method, reason):
 
 
 def _solve_or_fall_back(problem, guess, method, reason, wanted):
-    """What a route finds; where multigrid, not asked for, finds no proof, what the direct route
-    finds.
+    """What a route finds; what the direct route finds where multigrid, not asked for, has no proof,
+    or leaves something open on a mesh that was not refined.
     """
     why = reason
     if wanted == "discretisation" and method == "multigrid":
@@ -139,15 +145,24 @@ def _solve_or_fall_back(problem, guess, method, reason, wanted):
         if rough is not None:
             return rough, method, reason
         why = f"{reason}; its discretisation error cannot be told"
+    may_factorise = method == "multigrid" and reason != REQUESTED and factors_fit(problem)
     try:
-        return _run_route(problem, method, guess), method, why
+        result = _run_route(problem, method, guess)
     except SolverError as error:
-        larger = not fits(
-            problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes
-        )
-        if method != "multigrid" or reason == REQUESTED or larger:
+        if not may_factorise:
             raise
-        return _run_route(problem, "direct", guess), "direct", f"{why}; but {error}"
+        why = f"{why}; but {error}"
+    else:
+        if not may_factorise or is_nested(problem.mesh) or not _is_open(problem, result):
+            return result, method, why
+        why = f"{why}; but multigrid leaves signs or digits open"
+    return _run_route(problem, "direct", guess), "direct", why
+
+
+def _is_open(problem, result):
+    """Whether multigrid is not sure of all, and the direct route may be."""
+    proved = proved_status(0.0, result.accuracy, result) == "solved" and not result.undecided.any()
+    return not proved and has_dense_contact(problem)
 
 
 def _solve_roughly(problem, guess):
@@ -169,8 +184,6 @@ def _run_route(problem, method, guess):
 
 
 def _causes(problem):
-    from signorini.solvers.conditioning import accuracy_loss_causes
-
     return accuracy_loss_causes(problem)
 
 

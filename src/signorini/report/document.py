@@ -36,7 +36,7 @@ from pathlib import Path
 import jinja2
 
 from signorini.report import quantities
-from signorini.report.markup import latex_text, markdown_text
+from signorini.report.markup import alternative, latex_text, markdown_text
 from signorini.report.rounding import percent
 
 LAYOUTS = {"markdown": "report/document.md.j2", "latex": "report/document.tex.j2"}
@@ -173,7 +173,11 @@ def _render(page, layout, slots):
     def inline(cell):
         return _INLINE[layout](str(cell), known)
 
-    macros = environment().get_template(LAYOUTS[layout]).make_module({"inline": inline})
+    macros = (
+        environment()
+        .get_template(LAYOUTS[layout])
+        .make_module({"inline": inline, "alternative": alternative})
+    )
     shown = [getattr(macros, block.kind)(block).rstrip() for block in blocks]
     return "\n\n".join(shown) + "\n" + macros.end
 

@@ -9,6 +9,7 @@ import re
 from signorini.report.table_writer import ESCAPES
 
 _SYMBOLS = {"≤": r"$\le$", "×": r"$\times$", "<": "$<$", ">": "$>$", r" \%": r"\,\%"}
+_STOP = re.compile(r"[.:;]\s")
 _VERBATIM = re.compile(r"(\$\$[^$]*\$\$|\$[^$]*\$|`[^`]*`|(?<!\w)@[a-z][\w-]*)")
 
 
@@ -93,3 +94,25 @@ def markdown_text(text, known=None):
             block = known[part[1:]]
             parts[k] = f"{block.kind.capitalize()} {block.number}"
     return "".join(parts)
+
+
+def alternative(caption):
+    """Return what stands for a picture where it cannot be seen: its caption up to the first stop.
+
+    Parameters
+    ----------
+    caption : str
+        Markdown.
+
+    Returns
+    -------
+    str
+        Without marks.
+
+    Examples
+    --------
+    >>> alternative("The $L^2$ error, by *route*, see [data](a.csv). Below 1, NCF is better.")
+    'The L^2 error, by route, see data'
+    """
+    words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", _STOP.split(caption)[0])
+    return re.sub(r"[$*`\\\[\]]", "", words).rstrip(".")

@@ -2,33 +2,18 @@
 
 import numpy as np
 import pytest
+from coarse_meshes import COARSE, finer
 from skfem import Basis
 
-from builders import delaunay, grid, perturbed
+from builders import delaunay, grid
 from signorini.errors import projection, reference
-from signorini.errors.projection import project, prolong, squared_l2
 from signorini.errors.reference import ReferenceErrors
 from signorini.exceptions import MeshError, SignoriniError
 from signorini.fem.elements import ELEMENTS, find_element
-from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 
-COARSE = {
-    "falling grid": lambda: grid(3, 2, size=(1.0, 0.7)),
-    "rising grid": lambda: grid(2, 3, diagonal="rising", origin=(-1.0, 2.0)),
-    "one cell": lambda: grid(1, size=(2.0, 1.0)),
-    "delaunay": lambda: delaunay(0, inner=8, side=2),
-    "perturbed": lambda: perturbed(2),
-    "grid as triangulation": lambda: Triangulation.from_skfem(grid(2, 3, diagonal="rising").skfem),
-}
 RULES = ("centroid", "midpoints", "vertices")
 ALL = ("l2", "h1_semi", "h1", "energy")
-
-
-def finer(mesh):
-    if isinstance(mesh, Grid):
-        return Grid(2 * mesh.nx, 2 * mesh.ny, mesh.origin, mesh.size, mesh.diagonal, mesh.labels)
-    return mesh.refined()
 
 
 @pytest.fixture(params=COARSE)
@@ -294,32 +279,3 @@ def test_a_mesh_that_does_not_nest_is_refused(kind, case, rule):
 def test_an_unknown_norm_or_rule_is_refused_with_the_known_ones(options):
     with pytest.raises(SignoriniError, match="known: "):
         ReferenceErrors(grid(2), "P1", np.zeros(9), **options).of(grid(1), "P1", np.zeros(4))
-
-
-# The projection
-
-
-def areas(mesh):
-    return np.broadcast_to(mesh.area, mesh.number_of_triangles)
-
-
-def test_projection_leaves_what_is_orthogonal(coarse):
-    """Pythagoras: |u|^2 = |Pi u|^2 + |u - Pi u|^2, and Pi u is the nearest of all."""
-    fine = finer(coarse)
-    values = np.random.default_rng(0).standard_normal((3, fine.number_of_triangles))
-    nearest, rest = project(fine, values)
-    assert squared_l2(areas(fine), values) == pytest.approx(
-        squared_l2(areas(coarse), nearest) + rest, rel=1e-13
-    )
-    assert squared_l2(areas(fine), values - prolong(fine, nearest)) == pytest.approx(
-        rest, rel=1e-13
-    )
-    other = nearest + 0.01 * np.random.default_rng(1).standard_normal(nearest.shape)
-    assert squared_l2(areas(fine), values - prolong(fine, other)) > rest
-
-
-def test_projection_undoes_prolongation(coarse):
-    values = np.random.default_rng(0).standard_normal((3, coarse.number_of_triangles))
-    again, rest = project(finer(coarse), prolong(finer(coarse), values))
-    np.testing.assert_allclose(again, values, rtol=0, atol=1e-14)
-    assert rest < 1e-28

@@ -1,6 +1,4 @@
-"""Errors against exact solutions: against other quadratures, invariances, skipped norms, rates."""
-
-from types import SimpleNamespace
+"""Errors against exact solutions: against other quadratures, invariances, skipped norms."""
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from signorini.errors.contact import contact_errors
 from signorini.errors.exact import ExactErrors
 from signorini.errors.graded import graded, root, square
 from signorini.errors.pieces import RADON
-from signorini.errors.rates import slopes
 from signorini.exact import ExactSolution, family, read_exact
 from signorini.exceptions import SceneError
 from signorini.fem import grid_lines as cells
@@ -20,23 +17,6 @@ from signorini.fem.elements import find_element
 from signorini.mesh.grid import Grid
 from signorini.mesh.triangulation import Triangulation
 from signorini.solvers import solve
-
-
-def renumbered(mesh, seed=0):
-    """The same triangles in another order, their vertices numbered and listed anew."""
-    from skfem import MeshTri
-
-    rng = np.random.default_rng(seed)
-    old = rng.permutation(mesh.number_of_vertices)
-    t = np.argsort(old)[mesh.t[:, rng.permutation(mesh.number_of_triangles)]]
-    shuffled = MeshTri(mesh.p[:, old], rng.permuted(t, axis=0), sort_t=False)
-    boundary, bottom = (
-        shuffled.boundary_facets(),
-        np.flatnonzero((shuffled.p[1, shuffled.facets] == 0.0).all(axis=0)),
-    )
-    return Triangulation.from_skfem(
-        shuffled.with_boundaries({"contact": bottom, "dirichlet": np.setdiff1d(boundary, bottom)})
-    )
 
 
 class Polar:
@@ -262,110 +242,3 @@ def test_patch_is_exact(element):
     assert found["trace_l2"] < 1e-14
     assert found["multiplier_l2"] < 1e-13
     assert found["critical_points"] is None
-
-
-@elements
-@pytest.mark.parametrize("name", ["corner", "smooth"])
-def test_numbering_does_not_matter(element, name):
-    exact, mesh = family(name), grid(6)
-    found = []
-    for one in (mesh, renumbered(mesh)):
-        x, y = nodes(one, element)
-        contact = find_element(element)
-        dofs = np.setdiff1d(
-            contact.boundary_dofs(one, "contact"), contact.boundary_dofs(one, "dirichlet")
-        )
-        at = contact.nodes(one, dofs)[0]
-        solution = SimpleNamespace(u=np.sin(x + 2 * y), force=np.cos(at), active=at < 0.2)
-        found.append(
-            ExactErrors(exact).of(one, element, solution.u)
-            | contact_errors(one, element, solution, exact)
-        )
-    assert found[1] == pytest.approx(found[0], rel=1e-12)
-
-
-@elements
-@pytest.mark.parametrize("k", [-900, 900])
-def test_powers_of_two_change_no_bit(element, k):
-    mesh, found = grid(8), []
-    for amplitude in (1.0, 2.0**k):
-        exact = family("corner", {"amplitude": amplitude})
-        solution = solve(problem_of(exact, mesh, element))
-        found.append(
-            ExactErrors(exact).of(mesh, element, solution.u)
-            | contact_errors(mesh, element, solution, exact)
-        )
-    point = found[0].pop("critical_points")
-    assert found[1].pop("critical_points") == point
-    assert found[1] == {key: np.ldexp(value, k) for key, value in found[0].items()}
-
-
-# Powers of the length that each error has, u itself having 3/2.
-LENGTHS = {"l2": 2.5, "h1_semi": 1.5, "trace_l2": 2.0, "multiplier_l2": 1.0, "critical_points": 1.0}
-
-
-@elements
-@pytest.mark.parametrize("scale", [1e-9, 1e9])
-def test_errors_scale_with_the_domain(element, scale):
-    found = []
-    for length in (1.0, scale):
-        exact, mesh = family("corner"), grid(8, origin=(-length / 3, 0.0), size=(length, length))
-        solution = solve(problem_of(exact, mesh, element))
-        found.append(
-            ExactErrors(exact).of(mesh, element, solution.u)
-            | contact_errors(mesh, element, solution, exact)
-        )
-    for name, power in LENGTHS.items():
-        assert found[1][name] == pytest.approx(found[0][name] * scale**power, rel=1e-10), name
-
-
-class Rates:
-    """Expected orders, over four halvings of h: with a critical point off the nodes single ones
-    swing by 0.2.
-    """
-
-    levels = (8, 16, 32, 64, 128)
-    orders = {"l2": (2.0, 0.1), "h1_semi": (1.0, 0.1), "h1": (1.0, 0.1)}  # noqa: RUF012
-    on_contact = {"trace_l2": (2.0, 0.2), "multiplier_l2": (1.0, 0.2)}  # noqa: RUF012
-    ceiling: float  # of the H1 error on the finest level
-    origin, width = (0.0, 0.0), 1
-
-    def errors(self, element, diagonal):
-        for n in self.levels:
-            mesh = grid(self.width * n, n, self.origin, (float(self.width), 1.0), diagonal=diagonal)
-            solution = solve(problem_of(self.exact, mesh, element))
-            assert solution.status == "solved"
-            yield ExactErrors(self.exact).of(mesh, element, solution.u) | contact_errors(
-                mesh, element, solution, self.exact
-            )
-
-    @elements
-    @pytest.mark.parametrize("diagonal", ["falling", "rising"])
-    def test_orders(self, element, diagonal):
-        rows = list(self.errors(element, diagonal))
-        for norm, (order, tolerance) in (self.orders | self.on_contact).items():
-            found = slopes([1 / n for n in self.levels], [row[norm] for row in rows])["mean"]
-            assert found == pytest.approx(order, abs=tolerance), norm
-        assert rows[-1]["h1"] < self.ceiling
-
-
-class TestCorner(Rates):
-    exact, origin, ceiling = family("corner"), (-1 / 3, 0.0), 0.005
-
-    @elements
-    def test_critical_point_within_half_a_cell(self, element):
-        """Half a cell for P1; CR knows it to a cell."""
-        for n, row in zip(self.levels, self.errors(element, "falling"), strict=True):
-            assert row["critical_points"] * n <= (0.5 if element == "P1" else 1.0)
-
-
-class TestPunch(Rates):
-    exact, origin, width, ceiling = family("punch", {"half_width": "1/3"}), (-1.0, 0.0), 2, 0.007
-
-
-class TestSmooth(Rates):
-    exact, origin, ceiling = family("smooth"), (1 / 6, 0.0), 0.04
-
-
-class TestBiactive(Rates):
-    exact, ceiling = family("biactive", {"left": "1/3", "right": "2/3"}), 0.03

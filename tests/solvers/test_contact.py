@@ -5,6 +5,16 @@ import sys
 
 import numpy as np
 import pytest
+from contact_problems import (
+    CYCLING,
+    EPS,
+    FAMILIES,
+    Counted,
+    assert_solved,
+    degenerate,
+    plain_active_set,
+    spread,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
@@ -12,94 +22,6 @@ from scipy.optimize import lsq_linear
 from signorini.exceptions import SolverError
 from signorini.solvers import pivoting
 from signorini.solvers.contact import DenseContact, solve_contact
-
-EPS = np.finfo(float).eps
-CYCLING = np.array([[11.0, -11, 9], [-11, 17, -6], [9, -6, 9]]), np.array([-6.0, 11, -1])
-
-
-def rotated(eigenvalues, rng):
-    """A full matrix of the given spectrum: no sign pattern, no M-matrix."""
-    Q = np.linalg.qr(rng.standard_normal((eigenvalues.size, eigenvalues.size)))[0]
-    S = (Q * eigenvalues) @ Q.T
-    return 0.5 * (S + S.T)
-
-
-def spread(n, condition, rng):
-    return rotated(np.geomspace(1, 1 / condition, n) if n > 1 else np.ones(1), rng)
-
-
-def gapped(n, condition, rng):
-    return rotated(np.where(np.arange(n) <= n // 2, 1, 1 / condition), rng)
-
-
-def needle(n, condition, rng):
-    """Dofs of very different size: a well-conditioned matrix between graded diagonals."""
-    d = np.geomspace(1, condition**-0.5, n)
-    return d[:, None] * rotated(rng.uniform(0.1, 10, n), rng) * d
-
-
-def obtuse(n, condition, rng):
-    """A chain held at both ends with edge lengths over many scales; couplings of either sign."""
-    k = np.exp(rng.uniform(0, np.log(condition), n + 1))
-    couple = np.diag(k[1:-1] * rng.choice([-1, 1], n - 1), 1)
-    return np.diag(k[:-1] + k[1:]) + couple + couple.T
-
-
-def green(n, condition, rng):
-    """The inverse of a chain: every entry positive, as far from an M-matrix as can be."""
-    x = np.cumsum(np.exp(rng.uniform(-np.log(condition) / 4, 0, n)))
-    return np.minimum.outer(x, x)
-
-
-FAMILIES = {family.__name__: family for family in (spread, gapped, needle, obtuse, green)}
-
-
-def degenerate(S, rng, share):
-    """A load whose solution is known; `share` of the dofs have neither gap nor force."""
-    n = len(S)
-    w = np.maximum(rng.standard_normal(n), 0)
-    force = np.where(w > 0, 0, rng.uniform(0, 1, n))
-    biactive = rng.random(n) < share
-    w[biactive] = force[biactive] = 0
-    return S @ w - force
-
-
-def natural_residual(S, q, w):
-    d = np.sqrt(S.diagonal())
-    size = max(np.max(w * d), np.max(np.abs(q) / d))
-    return np.max(np.abs(np.minimum(w * d, (S @ w - q) / d))) / size
-
-
-def assert_solved(S, q, result, tolerance=1e-9):
-    assert np.all(result.w >= 0)
-    assert np.all(result.multiplier >= 0)
-    assert np.all(result.w * result.multiplier == 0)
-    np.testing.assert_array_equal(result.active, result.w == 0)
-    if np.any(q):
-        assert natural_residual(S, q, result.w) <= tolerance
-        assert result.residual <= tolerance
-
-
-def plain_active_set(S, q, active, limit=100):
-    """The unsafeguarded primal-dual active set method: None where it revisits a set."""
-    seen = set()
-    while active.tobytes() not in seen and len(seen) < limit:
-        seen.add(active.tobytes())
-        w, free = np.zeros(len(q)), ~active
-        w[free] = np.linalg.solve(S[np.ix_(free, free)], q[free])
-        change = np.where(active, S @ w - q < 0, w < 0)
-        if not change.any():
-            return w
-        active = active ^ change
-    return None
-
-
-class Counted(DenseContact):
-    calls = 0
-
-    def solve_free(self, free, rhs):
-        self.calls += 1
-        return super().solve_free(free, rhs)
 
 
 def test_known_solution_where_the_plain_method_cycles():
@@ -297,86 +219,6 @@ def test_renumbering_the_dofs(family):
     w = solve_contact(DenseContact(S), q).w
     renumbered = solve_contact(DenseContact(S[np.ix_(order, order)]), q[order]).w
     np.testing.assert_allclose(renumbered, w[order], rtol=0, atol=1e-12 * w.max())
-
-
-def floating_chain(n, rng):
-    k = rng.uniform(0.1, 1, n - 1)
-    return np.diag(np.append(k, 0) + np.append(0, k)) - np.diag(k, 1) - np.diag(k, -1)
-
-
-def floating_strip(n, rng):
-    """A strip without Dirichlet side, condensed to one side: diagonal in the cosine basis."""
-    k = np.arange(n)
-    C = np.cos(np.pi * np.outer(k + 0.5, k) / n) * np.sqrt((2 - (k == 0)) / n)
-    S = (C * np.sin(0.5 * np.pi * k / n)) @ C.T
-    return 0.5 * (S + S.T)
-
-
-@pytest.mark.parametrize("floating", [floating_chain, floating_strip])
-@pytest.mark.parametrize("n", [2, 3, 30, 200])
-def test_body_held_by_contact_alone(floating, n):
-    rng = np.random.default_rng(n)
-    S = floating(n, rng)
-    for count in range(20):
-        w = np.maximum(rng.standard_normal(n), 0)
-        w[rng.integers(n)] = 0
-        q = S @ w - np.where(w > 0, 0, rng.uniform(0.1, 1, n))
-        guess = (None, np.zeros(n, dtype=bool), rng.random(n) < 0.5)[count % 3]
-        result = solve_contact(DenseContact(S), q, guess=guess, singular=True)
-        assert_solved(S, q, result)
-        np.testing.assert_allclose(result.w, w, rtol=0, atol=1e-10 * max(w.max(), 1))
-        assert result.multiplier.sum() == pytest.approx(-q.sum(), rel=1e-10)
-        assert result.active.any()
-
-
-def test_lone_dof_carries_the_load_of_a_floating_body():
-    result = solve_contact(DenseContact([[-1e-17]]), [-2.0], singular=True)
-    assert (result.w, result.multiplier) == (0, 2)
-
-
-@pytest.mark.parametrize("pull", [0.0, 1.0], ids=["balanced", "lifted"])
-def test_body_not_pressed_on_the_contact_is_refused(pull):
-    with pytest.raises(SolverError, match="no unique solution"):
-        solve_contact(DenseContact(floating_strip(4, None)), [1.0, -1.0, pull, 0.0], singular=True)
-
-
-@pytest.mark.parametrize("floating", [floating_chain, floating_strip])
-@pytest.mark.parametrize("n", [2, 30, 300])
-def test_kernel_that_was_not_announced_is_refused(floating, n):
-    S = floating(n, np.random.default_rng(0))
-    with pytest.raises(SolverError, match="singular"):
-        solve_contact(DenseContact(S), np.ones(n))
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_values_that_are_not_finite_are_refused(bad):
-    S = CYCLING[0]
-    with pytest.raises(SolverError, match=r"q .* finite; it is not at index \[1\]"):
-        solve_contact(DenseContact(S), [1.0, bad, 0.0])
-    with pytest.raises(SolverError, match=r"S .* finite; it is not at index \[0, 2\]"):
-        DenseContact(np.where(np.arange(9).reshape(3, 3) == 2, bad, S))
-
-
-@pytest.mark.parametrize(
-    ("S", "q", "guess", "message"),
-    [
-        (np.ones((2, 3)), np.ones(2), None, "square"),
-        ([[1.0, 2.0], [0.0, 1.0]], np.ones(2), None, "symmetric"),
-        (np.eye(2), np.ones(3), None, "shapes"),
-        (np.eye(2), np.ones(2), [True], "shapes"),
-        (-np.eye(2), np.ones(2), None, "diag S <= 0"),
-        ([[1.0, 2.0], [2.0, 1.0]], np.ones(2), None, "indefinite"),
-    ],
-)
-def test_data_that_do_not_fit_are_refused(S, q, guess, message):
-    with pytest.raises(SolverError, match=message):
-        solve_contact(DenseContact(S), q, guess=guess)
-
-
-def test_iteration_limit_is_named():
-    S, q = CYCLING
-    with pytest.raises(SolverError, match="in 1 iterations: 1 dofs violated"):
-        solve_contact(DenseContact(S), q, guess=np.ones(3, dtype=bool), max_iterations=1)
 
 
 entries = st.one_of(st.integers(-4, 4).map(float), st.floats(-1, 1, allow_subnormal=False))

@@ -15,7 +15,7 @@ from signorini.fem.problem import discretize, discretize_on
 from signorini.mesh.triangulation import Triangulation
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers import solve
-from signorini.solvers.schur_complement import SchurComplement, dissection_order
+from signorini.solvers.schur_complement import SchurComplement
 
 MESHES = {
     "grid": lambda labels: grid(5, 4, labels),
@@ -217,29 +217,6 @@ def test_the_condensed_matrix_is_the_schur_complement(mesh_of, element):
     np.testing.assert_array_equal(u[c], w)
     assert not u[problem.fixed].any()
     np.testing.assert_allclose((problem.A @ u - problem.b)[i], 0, rtol=0, atol=1e-12 * scale)
-
-
-@pytest.mark.parametrize("n", [1, 3, 20])
-def test_dissection_keeps_every_row_once_and_fill_low(element, n):
-    problem = discretize_on(grid(n), element, statement())
-    order = dissection_order(problem.A, nodes(problem))
-    np.testing.assert_array_equal(np.sort(order), np.arange(problem.b.size))
-
-
-def test_dissection_fills_less_than_the_natural_order():
-    problem = discretize_on(grid(48), "CR", statement())
-    order = dissection_order(problem.A, nodes(problem))
-    shifted = problem.A + scipy.sparse.eye_array(problem.b.size)
-    options = {
-        "permc_spec": "NATURAL",
-        "diag_pivot_thresh": 0.0,
-        "options": {"SymmetricMode": True},
-    }
-    natural, dissected = (
-        scipy.sparse.linalg.splu(shifted[rows][:, rows].tocsc(), **options).L.nnz
-        for rows in (np.arange(order.size), order)
-    )
-    assert dissected < 0.6 * natural
 
 
 def test_without_contact_it_is_poissons_equation(mesh_of, element):

@@ -8,8 +8,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from damage import accepted, cut
 from project import ROOT
-from test_accidents import accepted, cut, stamp
+from test_accidents import stamp
 
 PAGE = ROOT / "docs/faults.md"
 

@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import signorini
-from signorini.exceptions import SceneError
+from signorini.exceptions import SceneError, SolverError
 
 SIDES = {"dirichlet": ["right", "top", "left"], "contact": "bottom"}
 
@@ -57,3 +58,27 @@ def test_a_mesh_of_any_kind_will_do():
 def test_a_problem_without_its_data_is_refused():
     with pytest.raises(SceneError, match="does not know its data"):
         signorini.certify(replace(problem("P1"), data=None))
+
+
+@pytest.mark.parametrize("element", ["P1", "CR"])
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_solution_that_is_not_finite_has_no_bounds(element, value):
+    solution = signorini.solve(problem(element))
+    u = solution.u.copy()
+    u[3] = value
+    with pytest.raises(SolverError, match=rf"solution\.u: entry 3 is {value}; only finite"):
+        signorini.certify(replace(solution, u=u))
+
+
+def test_a_solution_of_other_numbers_is_read_or_refused():
+    """A program's own vector: as a list it is the same, complex numbers have no bounds."""
+    solution = signorini.solve(problem("P1"))
+    found = signorini.certify(replace(solution, u=solution.u.tolist()))
+    assert found.upper == signorini.certify(solution).upper
+    with pytest.raises(SolverError, match=r"solution\.u: holds complex128 numbers"):
+        signorini.certify(replace(solution, u=solution.u + 0j))
+
+
+def test_what_is_no_question_is_told():
+    with pytest.raises(SceneError, match=r"question: None .*is no Problem or Solution"):
+        signorini.certify(None)

@@ -167,6 +167,13 @@ def test_a_coefficient_that_varies_within_triangles_is_refused():
         certify_level(mesh, told.data, *solved(mesh, told))
 
 
+@pytest.mark.parametrize("cut", ["x < 0.02", "x + y < 0.03", "y > 0.999", "x - y > 0.99"])
+def test_a_coefficient_that_cuts_off_corners_alone_is_refused(cut):
+    mesh, told = grid(4), statement(f="-1", coefficient=f"where({cut}, 1e6, 1)")
+    with pytest.raises(FormulaError, match="varies within the triangle"):
+        certify_level(mesh, told.data, *solved(mesh, told))
+
+
 def test_a_coefficient_whose_lines_the_mesh_follows_is_not():
     mesh, told = grid(4), statement(f="-1", coefficient="where(y < 0.5, 3, 0.1)")
     certify_level(mesh, told.data, *solved(mesh, told))

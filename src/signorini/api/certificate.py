@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from signorini.api.arguments import described
+from signorini.api.types import Floats
 from signorini.certificate.bounds import Certificate
-from signorini.exceptions import SceneError
+from signorini.exceptions import SceneError, SolverError
 from signorini.fem.discrete_problem import Problem
 from signorini.scene.statement import ProblemStatement
 from signorini.solvers.solution import Solution
@@ -56,14 +58,19 @@ def certify(question: Any, *, method: str = "auto") -> Certificate:
     from signorini.certificate.certify import certify_level
     from signorini.solvers.select import solve
 
+    if not isinstance(question, Problem | Solution):
+        raise SceneError(
+            f"question: {described(question)} is no Problem or Solution; "
+            "make one by signorini.problem(...) or signorini.solve(...)"
+        )
     solution = question if isinstance(question, Solution) else solve(question, method)
-    problem = solution.problem
+    problem, values = solution.problem, _checked(solution.u)
     if problem.data is None:
         raise SceneError(
             "certificate: the problem does not know its data; make it by signorini.problem(...)"
         )
     other = _exactly(problem, _OTHER[problem.element])
-    u = {problem.element: solution.u, other.element: solve(other, method).u}
+    u = {problem.element: values, other.element: solve(other, method).u}
     equilibrated, published, A = u["CR"], None, None
     if problem.element == "CR":
         exact = _exactly(problem, "CR")
@@ -75,6 +82,19 @@ def certify(question: Any, *, method: str = "auto") -> Certificate:
         problem.mesh, problem.data, u["P1"], equilibrated, published=published, A=A
     )
     return found[problem.element]
+
+
+def _checked(u: Any) -> Floats:
+    """The degrees of freedom of a solution, which may be a program's own: real and finite."""
+    values = np.asarray(u)
+    if values.dtype.kind not in "fiu":
+        raise SolverError(f"solution.u: holds {values.dtype} numbers; give real ones")
+    if not np.isfinite(values).all():
+        k = int(np.argmin(np.isfinite(values).ravel()))
+        raise SolverError(
+            f"solution.u: entry {k} is {values.ravel()[k]}; only finite numbers have an error"
+        )
+    return values.astype(float)
 
 
 def _exactly(problem: Problem, element: str) -> Problem:

@@ -11,7 +11,16 @@ from signorini.fem.coefficient import coefficient_on
 from signorini.fem.data import BySubdomain
 from signorini.fem.elements import find_element
 
-_SAMPLES = np.full((3, 3), 0.1) + 0.7 * np.eye(3)
+# Barycentric coordinates: near the corners and the middles of the sides, where a line first cuts a
+# triangle, but not so near that the last digits of a vertex count; and in between.
+_NEAR = 1e-3
+_SAMPLES = np.concatenate(
+    [
+        np.full((3, 3), near) + (1.0 - 3.0 * near) * inner
+        for near in (_NEAR, 0.1)
+        for inner in (np.eye(3), 0.5 - 0.5 * np.eye(3))
+    ]
+)
 _ROUNDING = 1e-12
 
 
@@ -99,7 +108,7 @@ def _check_coefficient(mesh, given, coefficient):
     if isinstance(given, BySubdomain) or given.constant is not None:
         return
     corners = mesh.p[:, mesh.t]
-    x, y = np.einsum("iq,aim->aqm", _SAMPLES, corners)
+    x, y = np.einsum("qi,aim->aqm", _SAMPLES, corners)
     k = 1.0 if coefficient is None else coefficient
     off = np.abs(given(x, y) - k) > _ROUNDING * k
     if off.any():

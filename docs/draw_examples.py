@@ -29,15 +29,17 @@ pictures are what the scripts draw, and tests run them all.
 
 
 def lesson(path):
-    """Title and text of the docstring of an example."""
-    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
-    title, _, rest = text.partition("\n\n")
-    return title.rstrip("."), rest
+    """Title and text of the docstring of an example, and what its picture shows."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    title, _, rest = ast.get_docstring(tree).partition("\n\n")
+    functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    shown = ast.get_docstring(functions["visualize"])
+    return title.rstrip("."), rest, shown.rstrip(".")
 
 
 def section(path):
     """What the page shows of an example, as Markdown."""
-    title, text = lesson(path)
+    title, text, shown = lesson(path)
     return f"""
 ## {title}
 
@@ -45,7 +47,7 @@ def section(path):
 
 [examples/{path.name}](../examples/{path.name})
 
-![{title}](pictures/examples/{path.stem}.png)
+![{shown}](pictures/examples/{path.stem}.png)
 """
 
 

@@ -57,6 +57,22 @@ def test_what_an_article_does_not_ask_for_is_not_built(jobs_of, body):
 
 
 @pytest.mark.skipif(not LATEX, reason="LaTeX is not installed")
+@pytest.mark.parametrize(
+    ("body", "jobs"),
+    [
+        (r"\result{sweep, count}", set()),
+        (r"\result{sweep, resultant, CR, greatest}", {"sweep_points", "sweep_table"}),
+        (r"\input{sweep.tex}", {"sweep_points", "sweep_table"}),
+        (r"\includegraphics{sweep}", {"sweep_points", "sweep_table", "sweep_figure"}),
+    ],
+)
+def test_an_article_takes_what_it_asks_of_a_sweep(fresh, body, jobs):
+    publish(fresh, "", body, f"{QUIET}sweep: {{data.f: [-1, -2]}}\n")
+    wanted = fresh.jobs("results/small/paper.pdf")
+    assert {rule for rule in wanted if rule.startswith("sweep")} == jobs
+
+
+@pytest.mark.skipif(not LATEX, reason="LaTeX is not installed")
 def test_two_scenes_with_articles_build_side_by_side(fresh):
     """One is that of `signorini new --paper`; the other has names of its own and a check."""
     publish(

@@ -137,7 +137,7 @@ rule macros:
         "results/{scene}/logs/macros.log",
     params:
         content=content("macros", published_if_any, source_if_any),
-        asked=parts("elements", "levels", "norms", "truth", "slope", "quantities"),
+        asked=asked_of_macros,
     shell:
         "python3 -m signorini macros {input.scene:q} -o {output:q} 2>&1 | tee {log:q}"
 

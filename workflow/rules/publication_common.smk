@@ -63,6 +63,13 @@ def tables_of_macros(wildcards):
     return tables_from(wildcards, tables_of(scene(wildcards.scene).document) or ["scene"])
 
 
+def asked_of_macros(wildcards):
+    """The parts of a scene that numbers of a manuscript depend on beside tables."""
+    asked = scene(wildcards.scene)
+    keys = ["elements", "levels", "norms", "truth", "slope", "quantities"]
+    return as_json(asked.section(*keys, *(["sweep"] if "sweep" in asked.document else [])))
+
+
 def tables_from(wildcards, tables):
     """Files of tables; the scene itself starts no job."""
     wanted = [FILES[table] for table in FILES if table in tables and table != "scene"]

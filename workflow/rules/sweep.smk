@@ -32,14 +32,15 @@ rule sweep_table:
     output:
         table="results/{scene}/sweep.csv",
         summary=["results/{scene}/sweep_summary.csv", "results/{scene}/sweep_summary.md"],
+        tex="results/{scene}/sweep.tex",
     log:
         "results/{scene}/logs/sweep_table.log",
     params:
         content=content("sweep-table"),
-        sweep=parts("sweep"),
+        sweep=parts("sweep", "table", "norms"),
     shell:
         "python3 -m signorini sweep-table {input.scene:q} {input.bundles:q} -o {output.table:q}"
-        " --summary {output.summary:q} 2>&1 | tee {log:q}"
+        " --summary {output.summary:q} --tex {output.tex:q} 2>&1 | tee {log:q}"
 
 
 rule sweep_figure:

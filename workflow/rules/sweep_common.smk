@@ -66,8 +66,8 @@ def sweep_output(name):
     """What the sweep of a scene comes to."""
     if "sweep" not in scene(name).document:
         return []
-    files = ("sweep.csv", "sweep_summary.csv", "sweep_summary.md", "sweep.pdf", "sweep.png")
-    return [f"results/{name}/{file}" for file in files]
+    tables = ("sweep.csv", "sweep.tex", "sweep_summary.csv", "sweep_summary.md")
+    return [f"results/{name}/{file}" for file in (*tables, "sweep.pdf", "sweep.png")]
 
 
 @cache

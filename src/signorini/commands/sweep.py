@@ -74,7 +74,7 @@ def _written(scene, points, ordered, folder, library):
     records = [by_name[point.name] for point in points]
     table = folder / "sweep.csv"
     summaries = (folder / f"sweep_summary.{ending}" for ending in ("csv", "md"))
-    outcome = write_tables(scene, records, table, *summaries)
+    outcome = write_tables(scene, records, table, *summaries, folder / "sweep.tex")
     if outcome.data["failed"]:
         lines = "; ".join(outcome.data["failed"][:3])
         raise SignoriniError(

@@ -9,6 +9,7 @@ import difflib
 
 from signorini.errors.rates import KINDS
 from signorini.mesh.boundary import labels_of
+from signorini.publication.swept import SWEEP, swept_words
 from signorini.scene.certified import is_certified
 from signorini.scene.table import computed_norms
 from signorini.wording import cut
@@ -42,6 +43,7 @@ FILES = {
     "effects": "effects.csv",
     "certificates": "certificates.csv",
     "surface": "surface.npz",
+    "sweep": "sweep.csv",
     "contact_line": "contact_line.csv",  # last, for it is long
 }
 
@@ -99,6 +101,8 @@ def declared_keys(document, published=()):
         found |= dict.fromkeys(_certificate_keys(document), "certificates")
     if "contact" in labels_of(document["boundary"]):
         found |= dict.fromkeys(_line_keys(document), "contact_line")
+    if SWEEP in document:
+        found |= dict.fromkeys(_sweep_keys(document), SWEEP)
     if published:
         found |= dict.fromkeys(_check_keys(published), "check")
     if is_sampled(document):
@@ -140,6 +144,8 @@ def _scene_keys(document):
     yield from (key_of("level", word) for word in ("coarsest", "finest", "count"))
     if document["truth"]["kind"] == "reference":
         yield key_of("reference", "n")
+    if SWEEP in document:
+        yield key_of(SWEEP, "count")
 
 
 def _error_keys(document):
@@ -186,6 +192,10 @@ def _line_keys(document):
         yield key_of("critical", element, STAR)
         names = (*LINE, THRESHOLD) if has_threshold else LINE
         yield from (key_of("contact", name, element, STAR) for name in names)
+
+
+def _sweep_keys(document):
+    yield from (key_of(SWEEP, *words) for words in swept_words(document, STAR))
 
 
 def _check_keys(published):

@@ -4,6 +4,7 @@ from signorini.mesh.boundary import labels_of
 from signorini.publication.keys import FILES, declared_keys, table_of
 from signorini.publication.manuscript import MACROS, read_manuscript
 from signorini.publication.published import read_published
+from signorini.publication.swept import SWEEP
 from signorini.scene.publication import TABLE, names_of
 
 _DRAWN = ("pdf", "png")
@@ -33,6 +34,9 @@ def made_files(document):
     found = {MACROS: MACROS}
     if document["truth"]["kind"] != "none" and len(document["levels"]) > 1:
         found[f"{names[TABLE]}.tex"] = f"{names[TABLE]}.tex"
+    if SWEEP in document:
+        swept = [f"{SWEEP}.{end}" for end in ("tex", *_DRAWN)]
+        found |= dict(zip(swept, swept, strict=True))
     drawn = [f"{name}.{end}" for kind, name in names.items() if kind != TABLE for end in _DRAWN]
     found |= dict(zip(drawn, drawn, strict=True))
     return found | {

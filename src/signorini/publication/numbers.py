@@ -24,7 +24,9 @@ from signorini.publication.keys import (
     key_of,
 )
 from signorini.publication.published import read_published
+from signorini.publication.swept import SWEEP, swept_values
 from signorini.report.result_files import read_errors, read_rates
+from signorini.scene.sweep import sweep_points
 from signorini.scene.table import computed_norms
 from signorini.storage import read_csv, read_npz
 
@@ -59,6 +61,8 @@ def read_numbers(scene, folder, tables):
 def _of_scene(scene, _):
     levels, truth = scene.levels, scene.truth
     found = {"level, coarsest": levels[0], "level, finest": levels[-1], "level, count": len(levels)}
+    if SWEEP in scene.document:
+        found["sweep, count"] = len(sweep_points(scene.document[SWEEP]))
     return found | ({"reference, n": truth["n"]} if truth["kind"] == "reference" else {})
 
 
@@ -191,6 +195,11 @@ def _of_effects(_, path):
     return {key_of(EFFECT, row["choice"]): row["change"] for row in rows}
 
 
+def _of_sweep(scene, path):
+    found = swept_values(scene.document, read_csv(path))
+    return {key_of(SWEEP, *words): text for words, text in found.items()}
+
+
 def _of_surface(_, path):
     surface = read_npz(path, kind="surface")
     u, obstacle = surface["contact_u"], surface["contact_obstacle"]
@@ -217,4 +226,5 @@ _READERS = {
     "effects": _of_effects,
     "certificates": _of_certificates,
     "surface": _of_surface,
+    "sweep": _of_sweep,
 }

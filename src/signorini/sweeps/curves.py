@@ -1,11 +1,12 @@
 """What the figure of a sweep shows: quantities on the finest level over the first swept key."""
 
 from signorini.errors.norms import NORMS
+from signorini.sweeps.finest import finest_rows
+from signorini.sweeps.names import QUANTITY
 
-# Shown where they are known, in this order; the first four.
+# Shown where they are known, after the quantities of the scene, in this order; the first four.
 SHOWN = ("l2", "h1", "resultant", "contact_length", "energy", "trace_l2", "last_critical")
 _MOST_PANELS = 4
-_QUANTITY = "quantity."  # before the quantities of the scene, which come first
 LABELS = {
     "resultant": "contact force in all",
     "contact_length": "length in contact",
@@ -37,27 +38,17 @@ def sweep_curves(section, rows):
         If no point was solved.
     """
     key, *others = section
-    solved = _finest([row for row in rows if not row["failed"]])
+    solved = finest_rows(rows)
     if not solved:
         raise ValueError("sweep: no point was solved; there is nothing to draw")
     places, ticks = _places([row[key] for row in solved])
     panels = []
-    asked = [name for name in solved[0] if name.startswith(_QUANTITY)]
+    asked = [name for name in solved[0] if name.startswith(QUANTITY)]
     for name in (*asked, *SHOWN):
         if any(row.get(name) not in (None, "") for row in solved) and len(panels) < _MOST_PANELS:
             panels.append(_panel(name, solved, key, others, places))
     log = isinstance(section[key], dict) and section[key].get("spacing") == "log"
     return {"label": key, "log": log and ticks is None, "ticks": ticks, "panels": panels}
-
-
-def _finest(rows):
-    """Of each point and element the row of the finest level."""
-    finest = {}
-    for row in rows:
-        place = row["point"], row["element"]
-        if place not in finest or int(row["n"]) > int(finest[place]["n"]):
-            finest[place] = row
-    return list(finest.values())
 
 
 def _places(values):
@@ -83,7 +74,7 @@ def _panel(name, rows, key, others, places):
         order = sorted(range(len(x)), key=x.__getitem__)
         x, y = [x[k] for k in order], [y[k] for k in order]
         curves.append({"element": element, "variant": variant, "x": x, "y": y})
-    label = NORMS[name].axis if name in NORMS else LABELS.get(name, name.removeprefix(_QUANTITY))
+    label = NORMS[name].axis if name in NORMS else LABELS.get(name, name.removeprefix(QUANTITY))
     return {"label": label, "log": name in NORMS and _spans_a_decade(curves), "series": curves}
 
 

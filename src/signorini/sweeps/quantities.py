@@ -3,8 +3,6 @@
 from signorini.fem.contact_line import critical_places
 from signorini.fem.functionals import binding_length
 
-QUANTITIES = ("resultant", "contact_length", "critical_count", "first_critical", "last_critical")
-
 
 def contact_quantities(mesh, solution):
     """What happens on the contact part, in a few numbers.

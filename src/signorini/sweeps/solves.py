@@ -11,9 +11,8 @@ from signorini.report.outputs import output_rows
 from signorini.scene.memory_check import check_level
 from signorini.solvers import solve
 from signorini.solvers.stored import stored
+from signorini.sweeps.names import QUANTITY
 from signorini.sweeps.quantities import contact_quantities
-
-QUANTITY = "quantity."  # before the name of a quantity of the scene, where it heads a column
 
 
 class Solver:

@@ -5,10 +5,9 @@ greatest value, and where.
 import pandas as pd
 
 from signorini.errors.norms import RATED
-from signorini.sweeps.quantities import QUANTITIES
-from signorini.sweeps.solves import QUANTITY
+from signorini.sweeps.names import CONTACT, QUANTITY, RATE
 
-SUMMED = (*RATED, *(f"rate_{norm}" for norm in RATED), *QUANTITIES)
+SUMMED = (*RATED, *(f"{RATE}{norm}" for norm in RATED), *CONTACT)
 _COLUMNS = (
     "element",
     "quantity",

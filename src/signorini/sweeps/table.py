@@ -1,6 +1,6 @@
 """All points of a sweep in one table: a row for each point, element and level."""
 
-FAILED = "failed"
+from signorini.sweeps.names import FAILED
 
 
 def sweep_rows(section, records):

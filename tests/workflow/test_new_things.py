@@ -75,7 +75,7 @@ def test_an_element(project):
 def test_a_norm(project):
     """Twice the L2 norm, of errors against a reference."""
     names = f"{LIBRARY}/errors/norms.py"
-    entry = 'NORMS = {\n    "twice": Norm("twice", "twice", "Twice", "twice", "twice"),'
+    entry = 'NORMS = {\n    "twice": Norm("twice", "twice", "twice", "twice"),'
     project.edit(names, "NORMS = {", entry)
     project.edit(names, 'DOMAIN = ("l2",', 'DOMAIN = ("l2", "twice",')
     values = f"{LIBRARY}/errors/reference.py"

@@ -11,9 +11,8 @@ and 6e-6 for the two without a singular point, smooth and biactive.
 import numpy as np
 
 from signorini.errors.graded import root, scaled_weight
-from signorini.errors.norms import ALWAYS_NAMED, DOMAIN, GRADIENT
+from signorini.errors.norms import ALWAYS_NAMED, GRADIENT, check_in_domain
 from signorini.errors.pieces import Field, pieces
-from signorini.exceptions import SceneError
 from signorini.fem.elements import find_element
 
 
@@ -42,9 +41,7 @@ class ExactErrors:
     """
 
     def __init__(self, exact, norms=ALWAYS_NAMED):
-        unknown = [norm for norm in norms if norm not in DOMAIN]
-        if unknown:
-            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
+        check_in_domain(norms)
         self.exact = exact
         self.norms = tuple(norms)
 

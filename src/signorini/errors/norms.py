@@ -5,6 +5,8 @@ Nothing here imports NumPy.
 
 from dataclasses import dataclass
 
+from signorini.exceptions import SceneError
+
 
 @dataclass(frozen=True)
 class Norm:
@@ -89,3 +91,26 @@ RATED = (*DOMAIN, *CONTACT)  # those whose slope is taken: all
 ALWAYS_NAMED = ("l2", "h1_semi", "h1")
 
 REFERENCE = "reference"  # in the column floor: the solution is the reference itself
+
+
+def check_in_domain(norms):
+    """Refuse what is no norm of the error in the domain.
+
+    Parameters
+    ----------
+    norms : iterable of str
+
+    Raises
+    ------
+    SceneError
+        With the norms that are known.
+
+    Examples
+    --------
+    >>> check_in_domain(["l2", "H1"])
+    Traceback (most recent call last):
+    signorini.exceptions.SceneError: norms: unknown norm 'H1'; known: l2, h1_semi, h1, energy
+    """
+    for norm in norms:
+        if norm not in DOMAIN:
+            raise SceneError(f"norms: unknown norm {norm!r}; known: {', '.join(DOMAIN)}")

@@ -17,9 +17,9 @@ from functools import cached_property
 import numpy as np
 
 from signorini.errors.graded import scaled_weight
-from signorini.errors.norms import ALWAYS_NAMED, DOMAIN
+from signorini.errors.norms import ALWAYS_NAMED, check_in_domain
 from signorini.errors.projection import project, prolong, squared_l2
-from signorini.exceptions import MeshError, SceneError
+from signorini.exceptions import MeshError
 from signorini.fem.elements import find_element
 from signorini.fem.quadrature import triangle_rule
 from signorini.mesh.curved import curves_of
@@ -60,9 +60,7 @@ class ReferenceErrors:
     """
 
     def __init__(self, mesh, element, u, norms=ALWAYS_NAMED, quadrature="exact", coefficient=None):
-        unknown = [norm for norm in norms if norm not in DOMAIN]
-        if unknown:
-            raise SceneError(f"norms: unknown norm {unknown[0]!r}; known: {', '.join(DOMAIN)}")
+        check_in_domain(norms)
         if curves_of(mesh):
             raise MeshError(
                 "mesh: the levels of a curved side do not nest in a reference; use an exact truth"

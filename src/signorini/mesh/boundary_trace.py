@@ -116,6 +116,34 @@ def find_boundary_trace(mesh, label):
     return BoundaryTrace(t2f[which, triangles], triangles, local, vertices, ends, length, normal)
 
 
+def labelled_facets(mesh, label):
+    """The facets of a mesh that carry a label.
+
+    Parameters
+    ----------
+    mesh : Grid or Triangulation
+    label : {"dirichlet", "contact", "neumann"}
+
+    Returns
+    -------
+    ends : ndarray of int, shape (2, k)
+        Their end vertices.
+    lengths : ndarray, shape (k,)
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> mesh = Grid(2, 2, (0.0, 0.0), (1.0, 1.0), "falling", labels)
+    >>> labelled_facets(mesh, "contact")
+    (array([[0, 1],
+           [1, 2]]), array([0.5, 0.5]))
+    """
+    ends = mesh.facet_ends(mesh.boundary_facets(label))
+    start, end = (mesh.points(vertices) for vertices in ends)
+    return ends, np.hypot(*(end - start))
+
+
 def outward_normals(along, length, inward):
     """Unit normals of boundary facets that point out of the triangles behind them.
 

@@ -46,23 +46,38 @@ def make_domain(domain, boundary, coarsest):
     >>> domain.level(4).number_of_triangles, domain.mesh_size(4)
     (32, 0.25)
     """
-    if domain.get("kind", "rectangle") == "rectangle":
-        keys = ("origin", "size", "diagonal", "cells")
-        altered = {key: domain[key] for key in ("grade", "perturb") if key in domain}
-        return Rectangle(**{key: domain[key] for key in keys}, boundary=boundary, **altered)
+    kind = domain.get("kind", "rectangle")
+    return _MAKERS.get(kind, _triangulated_once)(domain, boundary, coarsest)
+
+
+def _rectangle(domain, boundary, _):
+    keys = ("origin", "size", "diagonal", "cells")
+    altered = {key: domain[key] for key in ("grade", "perturb") if key in domain}
+    return Rectangle(**{key: domain[key] for key in keys}, boundary=boundary, **altered)
+
+
+def _given(domain, boundary, coarsest):
+    from signorini.mesh.labels import labelled
+
+    curves = domain.get("curves", {})
+    keep = dict.fromkeys([*boundary, *curves])
+    root = labelled(domain["mesh"], boundary, domain["rest"], keep=keep, curves=curves)
+    return Refined(root, coarsest, domain["width"])
+
+
+def _triangulated_once(domain, boundary, coarsest):
+    """A polygon or a mesh file."""
     from signorini.mesh.labels import labelled
     from signorini.mesh.rules import boundary_rules
 
-    if domain["kind"] == "given":
-        curves = domain.get("curves", {})
-        keep = dict.fromkeys([*boundary, *curves])
-        root = labelled(domain["mesh"], boundary, domain["rest"], keep=keep, curves=curves)
-        return Refined(root, coarsest, domain["width"])
     curves = read_curves(domain.get("boundary_shape", {}))
     mesh = root_mesh(domain, coarsest, curves)
     width = longest_edge(mesh) if domain["kind"] == "mesh" else 1.0 / coarsest
     root = labelled(mesh, boundary_rules(boundary), keep=curves, curves=curves)
     return Refined(root, coarsest, width, boundary if by_formula(boundary) else None)
+
+
+_MAKERS = {"rectangle": _rectangle, "given": _given}
 
 
 def root_mesh(domain, coarsest, curves=None):

@@ -4,7 +4,8 @@ import numpy as np
 
 from signorini.fem.element_facts import CR_FACTS
 from signorini.fem.elements.edge_stencil import EDGE_STENCIL
-from signorini.fem.elements.element import Element, facets_of
+from signorini.fem.elements.element import Element
+from signorini.mesh.boundary_trace import labelled_facets
 from signorini.mesh.facets import pair_keys
 
 
@@ -38,7 +39,7 @@ class _CR(Element):
 
     def boundary_lengths(self, mesh, label):
         """The length of the facet itself."""
-        facets, (_, lengths) = mesh.boundary_facets(label), facets_of(mesh, label)
+        facets, (_, lengths) = mesh.boundary_facets(label), labelled_facets(mesh, label)
         return np.bincount(facets, lengths, minlength=self.size(mesh))
 
     def path_dofs(self, path):

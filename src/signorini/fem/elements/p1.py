@@ -3,8 +3,9 @@
 import numpy as np
 
 from signorini.fem.element_facts import P1_FACTS
-from signorini.fem.elements.element import Element, facets_of
+from signorini.fem.elements.element import Element
 from signorini.fem.elements.vertex_stencil import VERTEX_STENCIL
+from signorini.mesh.boundary_trace import labelled_facets
 
 
 class _P1(Element):
@@ -35,7 +36,7 @@ class _P1(Element):
 
     def boundary_lengths(self, mesh, label):
         """Half of each facet of the part that meets at the vertex."""
-        ends, lengths = facets_of(mesh, label)
+        ends, lengths = labelled_facets(mesh, label)
         return np.bincount(np.ravel(ends), np.tile(0.5 * lengths, 2), minlength=self.size(mesh))
 
     def path_dofs(self, path):

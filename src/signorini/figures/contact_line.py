@@ -39,7 +39,7 @@ TWO = 0.62, {"u": (0.57, 0.36), "force": (0.2, 0.28)}
 THREE = 0.8, {"u": (0.66, 0.285), "difference": (0.45, 0.13), "force": (0.155, 0.217)}
 IN_A_ROW = 4  # entries of the legend
 SECOND_ROW = 0.17  # inches
-THRESHOLD = {"linestyle": (0, (1, 1.5))}
+THRESHOLD = {"linestyle": (0, (6, 2, 1, 2))}  # apart from the dots of critical points
 TOUCHING = "contact without force"  # the exact solution's
 FORCE = r"contact force $k\,\mathrm{d}u/\mathrm{d}\nu$"
 

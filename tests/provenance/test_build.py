@@ -48,6 +48,28 @@ def test_a_product_that_was_made_anew_has_a_new_digest(two_jobs):
     assert described(two_jobs)["products"][TABLE]["sha256"] == sha256(b"n\n2\n")
 
 
+def test_a_touch_takes_no_new_digest_and_is_marked_until_the_job_runs(two_jobs):
+    before = described(two_jobs)["products"]
+    two_jobs.write(TABLE, b"n\n2\n")
+    two_jobs.record(TABLE, "table", ["data.txt", "src/code.py"], start=30)
+    touched = described(two_jobs, touched=True)["products"]
+    assert touched[TABLE] == before[TABLE] | {"stamp": 31.0, "touched": True}
+    assert {path: touched[path] for path in before if path != TABLE} == {
+        path: told for path, told in before.items() if path != TABLE
+    }
+    assert described(two_jobs)["products"] == touched
+    two_jobs.job("table", {TABLE: b"n\n3\n"}, ["data.txt", "src/code.py"], start=40)
+    again = described(two_jobs)["products"][TABLE]
+    assert again == before[TABLE] | {"stamp": 41.0, "sha256": sha256(b"n\n3\n")}
+
+
+def test_what_a_touch_declares_without_a_record_before_is_marked(two_jobs):
+    two_jobs.write("results/a/mine.txt", b"mine")
+    products = described(two_jobs, touched=True)["products"]
+    marked = {path for path, told in products.items() if told.get("touched")}
+    assert marked == {path for path, told in products.items() if told["rule"]}
+
+
 def test_a_product_of_another_input_than_the_rest_is_outdated(two_jobs):
     two_jobs.write("data.txt", b"2\n")
     two_jobs.job("other", {"results/a/other.csv": b"2"}, ["data.txt"], start=30)

@@ -82,6 +82,17 @@ def test_a_run_that_failed_is_told(two_jobs, folder):
     assert findings(folder) == {("failed", "draw")}
 
 
+def test_what_was_touched_and_not_made_is_told(two_jobs, folder, capsys):
+    two_jobs.record("results/a/table.csv", "table", ["data.txt", "src/code.py"], start=30)
+    record = describe_build(two_jobs.folder, "results", touched=True)
+    write_json(folder / RECORD, record)
+    assert findings(folder) == {("touched", "a/table.csv")}
+    assert main(["verify", str(folder)]) == 1
+    assert (
+        "touched: a/table.csv: declared up to date by snakemake --touch" in capsys.readouterr().out
+    )
+
+
 def test_what_was_made_of_older_inputs_is_told(two_jobs, folder):
     two_jobs.write("data.txt", b"2\n")
     two_jobs.job("other", {"results/a/other.csv": b"2"}, ["data.txt"], start=30)

@@ -128,6 +128,8 @@ def test_a_killed_job_leaves_nothing_and_is_made_again(small, built_small):
         os.kill(job, signal.SIGKILL)
         process.wait(timeout=60)
         assert process.returncode != 0
+        told = process.stdout.read()
+    assert "\nfailed: errors; its log: results/small/logs/errors.log\n" in told
     assert "small/errors.csv" not in small.results()
     small.build(AFTER)
     assert small.results() == built_small.results()

@@ -277,6 +277,9 @@ def test_a_scene_that_cannot_be_solved(fresh):
     assert run.errors
     assert all(line.startswith("error: config/scenes/small.yaml: ") for line in run.errors)
     assert all("add a dirichlet part" in line for line in run.errors)
+    assert "\nfailed: solve; its log: results/small/logs/solve/P1_n2.log\n" in run.text
+    told = run.text.partition("error: ")[2]
+    assert len(told.splitlines()) < 15
     assert [name for name in fresh.results() if not name.startswith("meshes")] == [VALIDATED]
 
 

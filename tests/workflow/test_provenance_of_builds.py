@@ -3,6 +3,8 @@
 import hashlib
 import json
 
+from signorini.storage import write_text
+
 
 def record_of(project):
     return json.loads((project / "results/provenance.json").read_text(encoding="utf-8"))
@@ -43,3 +45,15 @@ def test_a_run_that_fails_says_so_and_the_next_that_it_did_not(small):
     small.edit("src/signorini/commands/rates.py", "    raise OSError\n", "")
     small.build()
     assert record_of(small)["state"] == "complete"
+
+
+def test_a_touch_does_not_make_an_edited_file_the_result_of_its_job(small):
+    """Neither does the run after it."""
+    table = small / "results/small/errors.csv"
+    made = record_of(small)["products"]["results/small/errors.csv"]["sha256"]
+    write_text(table, table.read_text(encoding="utf-8").replace("fourier", "direct"))
+    small.build("--touch", "results/small/rates.csv")
+    small.build("--forcerun", "rates")
+    products = record_of(small)["products"]
+    assert products["results/small/errors.csv"]["sha256"] == made
+    assert not products["results/small/rates.csv"].get("touched")

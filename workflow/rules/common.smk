@@ -174,6 +174,14 @@ def tell_provenance(state):
     )  # None on a cluster, where `workflow.cores` raises an error
     words += ["--cores", str(cores)] if cores else []
     failed = sorted({job.name for job in workflow.scheduler.failed})
+    words += ["--touched"] if workflow.touch else []
     words += ["--failed", *failed] if failed else []
     command = [sys.executable, "-m", "signorini", "provenance", "results", *words]
     subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+
+
+def tell_failures():
+    """Name what failed and its log; Snakemake's own account of it, with all files of the library, is quiet."""
+    for job in sorted(workflow.scheduler.failed, key=lambda job: job.name):
+        logs = ", ".join(getattr(job, "log", []))
+        print(f"failed: {job.name}" + (f"; its log: {logs}" if logs else ""), file=sys.stderr)

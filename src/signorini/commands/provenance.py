@@ -23,6 +23,9 @@ def add_arguments(parser):
     parser.add_argument(
         "--failed", nargs="+", default=[], metavar="RULE", help="the rules that failed, if any did"
     )
+    parser.add_argument(
+        "--touched", action="store_true", help="that the run made nothing and touched files only"
+    )
     parser.add_argument("--cores", type=int, metavar="N", help="how many Snakemake was given")
     parser.add_argument("--asked", default="", metavar="WORDS", help="what Snakemake was told")
 
@@ -38,10 +41,14 @@ def run(arguments):
     folder = Path(arguments.results)
     if folder.is_absolute() or ".." in folder.parts or not folder.is_dir():
         raise StorageError(f"{folder}: not a folder below this one; name that of the results")
-    asked = arguments.asked.split()
-    record = describe_build(
-        Path(), folder.as_posix(), arguments.state, arguments.failed, asked, arguments.cores
-    )
+    run = {
+        "state": arguments.state,
+        "failed": arguments.failed,
+        "asked": arguments.asked.split(),
+        "cores": arguments.cores,
+        "touched": arguments.touched,
+    }
+    record = describe_build(Path(), folder.as_posix(), **run)
     write_json(arguments.output or folder / RECORD, record)
     counts = f"{len(record['products'])} products of {len(record['jobs'])} jobs"
     return Outcome(f"provenance: {counts}, {len(record['inputs'])} inputs", record)

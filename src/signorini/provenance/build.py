@@ -1,7 +1,8 @@
 """What a build made: ``results/provenance.json``.
 
 A digest is taken when a product is first recorded, and kept as long as no job makes the product
-anew: so a file that was changed by hand later is not what the record says.
+anew: so a file that was changed by hand later is not what the record says. ``snakemake --touch``
+makes nothing anew, and what it touches is marked.
 """
 
 import json
@@ -23,7 +24,9 @@ _WORKFLOW = (
 )
 
 
-def describe_build(project, results, state=COMPLETE, failed=(), asked=(), cores=None):
+def describe_build(
+    project, results, state=COMPLETE, failed=(), asked=(), cores=None, touched=False
+):
     """Describe what is in a folder of results, and how it came there.
 
     Parameters
@@ -40,6 +43,8 @@ def describe_build(project, results, state=COMPLETE, failed=(), asked=(), cores=
         What Snakemake was told.
     cores : int, optional
         How many cores it was given.
+    touched : bool, optional
+        Whether the run made nothing and touched files only.
 
     Returns
     -------
@@ -61,7 +66,7 @@ def describe_build(project, results, state=COMPLETE, failed=(), asked=(), cores=
         "results": results,
         "jobs": [_job(job, outdated) for job in jobs],
         "inputs": inputs,
-        "products": _products(project, results, jobs),
+        "products": _products(project, results, jobs, touched),
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
     }
 
@@ -122,23 +127,26 @@ def _of_no_job(project, scenes):
         yield json.loads(read_small(project / path))["source"]
 
 
-def _products(project, results, jobs):
+def _products(project, results, jobs, touched):
     """Path -> digest, size, rule and time stamp of every result, in folders of results too."""
     makers = {path: (job.rule, stamp) for job in jobs for path, stamp in job.outputs.items()}
     kept = _kept(project / results / RECORD)
     files, _ = walk(project / results)
     paths = [f"{results}/{path}" for path in files if is_result(path)]
-    return {path: _product(project, path, makers, kept) for path in paths}
+    return {path: _product(project, path, makers, kept, touched) for path in paths}
 
 
-def _product(project, path, makers, kept):
+def _product(project, path, makers, kept, touched):
     places = [path, *(parent.as_posix() for parent in Path(path).parents)]
     rule, stamp = next((makers[place] for place in places if place in makers), (None, None))
     before = kept.get(path)
     if before and stamp is not None and before.get("stamp") == stamp:
         return before
+    mark = {"touched": True} if touched and stamp is not None else {}
+    if mark and before:
+        return before | {"stamp": stamp} | mark
     size = (project / path).stat().st_size
-    return {"sha256": digest_of(project / path), "bytes": size, "rule": rule, "stamp": stamp}
+    return {"sha256": digest_of(project / path), "bytes": size, "rule": rule, "stamp": stamp} | mark
 
 
 def _kept(path):

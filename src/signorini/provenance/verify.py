@@ -36,8 +36,8 @@ class Finding:
     Parameters
     ----------
     kind : str
-        ``refused``, ``missing``, ``changed``, ``extra``, ``outdated``, ``failed``, ``not met`` or
-        ``not checked``.
+        ``refused``, ``missing``, ``changed``, ``extra``, ``touched``, ``outdated``, ``failed``,
+        ``not met`` or ``not checked``.
     path : str
         Below the folder that was checked.
     told : str
@@ -176,7 +176,8 @@ def _held(folder, path, product):
         return [Finding("changed", path, f"its SHA-256 is {digest[:12]}..., not {wanted[:12]}...")]
     if not is_sealed(folder / path, digest):
         return [Finding("changed", path, "the digest beside it is another")]
-    return []
+    told = "declared up to date by snakemake --touch, not made by its job"
+    return [Finding("touched", path, told)] if product.get("touched") else []
 
 
 def _of_run(record, start):

@@ -7,6 +7,8 @@ from signorini.api.domains import triangulation as triangulation
 from signorini.api.exact import exact_solution as exact_solution
 from signorini.api.meshes import Mesh as Mesh
 from signorini.api.problem import problem as problem
+from signorini.api.reporting import latex_table as latex_table
+from signorini.api.reporting import plot_errors as plot_errors
 from signorini.api.solution import Solution as Solution
 from signorini.api.solve import solve as solve
 from signorini.exceptions import SignoriniError as SignoriniError

@@ -172,6 +172,31 @@ def rates(errors: "DataFrame") -> "DataFrame":
     """
     from signorini.errors.rates import rate_rows
 
+    return as_frame(rate_rows(error_rows(errors)))
+
+
+def error_rows(errors: "DataFrame") -> list[dict[str, Any]]:
+    """The rows of a table of errors, None where it is empty.
+
+    Parameters
+    ----------
+    errors : pandas.DataFrame
+
+    Returns
+    -------
+    list of dict
+
+    Raises
+    ------
+    SignoriniError
+        If it is no such table, or has no row.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> error_rows(pd.DataFrame({"element": ["P1"], "h": [0.5], "l2": [None], "floor": [None]}))
+    [{'element': 'P1', 'h': 0.5, 'l2': None, 'floor': ''}]
+    """
     columns = list(getattr(errors, "columns", ()))
     for column in ("element", "h", "floor"):
         if column not in columns:
@@ -182,5 +207,6 @@ def rates(errors: "DataFrame") -> "DataFrame":
     if not len(errors):
         raise SignoriniError("errors: the table has no row; a slope needs two levels")
     known = errors.astype(object).where(errors.notna(), None)
-    known["floor"] = errors["floor"].fillna("")
-    return as_frame(rate_rows(known.to_dict("records")))
+    known["floor"] = known["floor"].fillna("")  # of a file in which it is empty
+    rows: list[dict[str, Any]] = known.to_dict("records")
+    return rows

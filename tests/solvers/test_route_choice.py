@@ -13,6 +13,7 @@ from signorini.mesh.triangulation import Triangulation
 from signorini.scene.read import load_scene
 from signorini.solvers import METHODS, solve
 from signorini.solvers.routes import choose_route
+from signorini.work import counting
 
 CHOICES = {
     "grid": (
@@ -69,6 +70,28 @@ def test_a_large_mesh_of_ones_own_takes_multigrid_where_levels_without_meshes_ar
     found = choose_route(problem, "auto")
     assert found[0] == method
     assert found[1].endswith(reason)
+
+
+def layer(cells, length):
+    """Cells on a long contact side, and four times as many unknowns beside it."""
+    sides = ("contact", "neumann", "dirichlet", "dirichlet")
+    return grid(*cells, labels=sides, size=(length, 1.0))
+
+
+@pytest.mark.parametrize("cells", [(600, 4), (601, 5)], ids=["refined", "unrefined"])
+def test_of_few_unknowns_many_in_contact_are_no_dense_matrix(cells):
+    problem = discretize_on(layer(cells, 150), "P1", statement(f="sin(x)"))
+    with counting() as work:
+        solution = solve(problem)
+    assert (solution.method, work.factorisations) == ("multigrid", 0)
+    direct = solve(problem, "direct")
+    assert solution.status == direct.status == "solved"
+    assert np.array_equal(solution.active, direct.active)
+
+
+def test_stretched_cells_keep_the_dense_matrix():
+    problem = discretize_on(layer((600, 4), 3000), "P1", statement(f="sin(x)"))
+    assert choose_route(problem, "auto")[0] == "direct"
 
 
 def test_where_multigrid_leaves_signs_open_on_such_a_mesh_the_direct_route_is_asked():

@@ -16,9 +16,9 @@ METHODS = {
 EXTRAS = {"petsc": ("signorini.solvers.petsc", "solve_petsc")}
 ALL_METHODS = METHODS | EXTRAS
 
-_DENSE_CONTACT_UP_TO = (
-    1500  # contact dofs from which their dense matrix costs more than algebraic levels; measured
-)
+# Contact dofs from which their dense matrix costs more than levels: of few dofs, without jumps of
+# the coefficient or with them; and of many, on a mesh that was not refined. Measured.
+_THIN_FROM, _DENSE_CONTACT_UP_TO = {False: 400, True: 800}, 1500
 # Dofs up to which a factorisation is faster than a hierarchy, by the accuracy that is wanted;
 # measured.
 _DIRECT_UP_TO = {"full": 20_000, "discretisation": 2_000}
@@ -73,7 +73,7 @@ def choose_route(problem, method, accuracy="full"):
 
 def _general_route(problem, why_not, accuracy):
     """The same where the fourier route does not apply, and why it does not."""
-    if problem.b.size <= _DIRECT_UP_TO[accuracy]:
+    if problem.b.size <= _DIRECT_UP_TO[accuracy] and not _is_thin(problem):
         return "direct", why_not
     from signorini.solvers.conditioning import is_nested
 
@@ -87,12 +87,12 @@ def _unrefined_route(problem, why_not):
     from signorini.solvers.conditioning import has_jumps, is_regular
 
     regular, jumps = is_regular(problem.mesh), has_jumps(problem.coefficient)
-    if regular and not jumps and problem.b.size > _DIRECT_UP_TO["full"]:
+    if regular and not jumps and not _is_small(problem):
         return (
             "multigrid",
             f"{why_not}, but no cell is stretched, no coefficient jumps",
         )
-    if regular and not has_dense_contact(problem):
+    if _is_thin(problem) or (regular and problem.contact.size > _DENSE_CONTACT_UP_TO):
         return "multigrid", f"{why_not}, and its contact matrix too large to be dense"
     if factors_fit(problem):
         return "direct", f"{why_not}, and {_what_slows_levels(regular, jumps)}"
@@ -116,16 +116,35 @@ def factors_fit(problem):
     return fits(problem.mesh.number_of_triangles, problem.finite_element.facts.direct_bytes)
 
 
-def has_dense_contact(problem):
-    """Whether a problem has so few contact dofs that their matrix may be dense.
+def factors_may_be_surer(problem):
+    """Whether the direct route is worth its time where multigrid is not sure of all.
 
     Examples
     --------
     >>> from signorini import discretize, load_scene
-    >>> has_dense_contact(discretize(load_scene("config/scenes/paper.yaml"), "CR", 8))
+    >>> factors_may_be_surer(discretize(load_scene("config/scenes/paper.yaml"), "CR", 8))
     True
     """
-    return problem.contact.size <= _DENSE_CONTACT_UP_TO
+    from signorini.solvers.conditioning import is_nested
+
+    dense = problem.contact.size <= _DENSE_CONTACT_UP_TO
+    return _is_small(problem) or (dense and not is_nested(problem.mesh))
+
+
+def _is_small(problem):
+    return problem.b.size <= _DIRECT_UP_TO["full"]
+
+
+def _is_thin(problem):
+    """Whether so many of few dofs are in contact that a dense matrix of them costs more than
+    levels.
+    """
+    from signorini.solvers.conditioning import has_jumps, is_regular
+
+    if not _is_small(problem) or problem.contact.size <= min(_THIN_FROM.values()):
+        return False
+    many = problem.contact.size > _THIN_FROM[has_jumps(problem.coefficient)]
+    return many and is_regular(problem.mesh)
 
 
 def _what_slows_levels(regular, jumps):

@@ -8,7 +8,7 @@ import numpy as np
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
-from signorini.solvers.conditioning import accuracy_loss_causes, is_nested
+from signorini.solvers.conditioning import accuracy_loss_causes
 from signorini.solvers.proof import accuracy_of, proved_status
 from signorini.solvers.route_result import USELESS_ACCURACY, RouteResult
 from signorini.solvers.routes import (
@@ -16,7 +16,7 @@ from signorini.solvers.routes import (
     REQUESTED,
     choose_route,
     factors_fit,
-    has_dense_contact,
+    factors_may_be_surer,
 )
 from signorini.solvers.scaling import (
     at_rest,
@@ -137,7 +137,7 @@ def _at_rest(problem, method, reason):
 
 def _solve_or_fall_back(problem, guess, method, reason, wanted):
     """What a route finds; what the direct route finds where multigrid, not asked for, has no proof,
-    or leaves something open on a mesh that was not refined.
+    or is not sure of all, as far as factors are affordable.
     """
     why = reason
     if wanted == "discretisation" and method == "multigrid":
@@ -153,16 +153,16 @@ def _solve_or_fall_back(problem, guess, method, reason, wanted):
             raise
         why = f"{why}; but {error}"
     else:
-        if not may_factorise or is_nested(problem.mesh) or not _is_open(problem, result):
+        if not may_factorise or _is_sure(result) or not factors_may_be_surer(problem):
             return result, method, why
         why = f"{why}; but multigrid leaves signs or digits open"
     return _run_route(problem, "direct", guess), "direct", why
 
 
-def _is_open(problem, result):
-    """Whether multigrid is not sure of all, and the direct route may be."""
-    proved = proved_status(0.0, result.accuracy, result) == "solved" and not result.undecided.any()
-    return not proved and has_dense_contact(problem)
+def _is_sure(result):
+    """Whether a route proves an answer to the last digits, and the side of each contact dof."""
+    proved = proved_status(0.0, result.accuracy, result) == "solved"
+    return proved and not result.undecided.any()
 
 
 def _solve_roughly(problem, guess):

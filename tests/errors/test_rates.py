@@ -86,6 +86,17 @@ def test_distances_of_critical_points_have_slopes():
     assert [row["slope"] for row in found] == pytest.approx([1.0, 1.0])
 
 
+def test_a_norm_that_is_exactly_zero_beside_round_off_has_no_slope():
+    """Also where it was not asked for, so that the column floor does not name it."""
+    rows = [
+        {"element": "P1", "h": h, "l2": 1e-16, "h1_semi": 0.0, "floor": "l2"} for h in (0.5, 0.25)
+    ]
+    found = {row["norm"]: row["slope"] for row in rate_rows(rows)}
+    assert found == {"l2": pytest.approx(0.0), "h1_semi": None}
+    with pytest.raises(SignoriniError, match="has no logarithm"):
+        rate_rows([row | {"floor": ""} for row in rows])
+
+
 @pytest.mark.parametrize("bad", [0.0, float("inf")])
 def test_a_zero_or_infinite_distance_has_no_slope_and_takes_none_from_other_norms(bad):
     found = rate_rows(errors_of(l2=[0.4, 0.1, 0.025], critical_points=[0.4, bad, 0.1]))

@@ -57,7 +57,7 @@ MODULES = {
     "figures/surface.py": {},
     "figures/convergence.py": FIGURES,
     "figures/style.py": FIGURES,
-    "errors/rates.py": {"rates": 1, "table": 1} | FIGURES,
+    "errors/rates.py": ERRORS,
     "errors/reference.py": ERRORS,
     "fem/contact_line.py": ERRORS | SHOWN,
     "exact/harmonic.py": EVERYTHING,

@@ -2,40 +2,14 @@
 works.
 """
 
-import json
-import os
-import subprocess
-import sys
-
 import pytest
+from new_things import LIBRARY, SCENE, SCHEMA, answer_of, signorini
 from project import Project
-
-LIBRARY = "src/signorini"
-SCHEMA, SCENE = f"{LIBRARY}/scene/schema.yaml", "config/scenes/small.yaml"
 
 
 @pytest.fixture
 def project(tmp_path):
     return Project.fresh(tmp_path / "project")
-
-
-def signorini(project, *words):
-    """Run a command of the copy's library."""
-    return subprocess.run(
-        [sys.executable, "-m", "signorini", *words],
-        cwd=project.folder,
-        env=os.environ | {"PYTHONPATH": str(project / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
-def told(project, *words):
-    """What a command of the copy's library tells as JSON."""
-    done = signorini(project, *words, "--json")
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
 
 
 ELEMENT = """\
@@ -65,8 +39,8 @@ def test_an_element(project):
     styles = f"{LIBRARY}/figures/style.py"
     project.edit(styles, "ELEMENT_STYLES = {", 'ELEMENT_STYLES = {\n    "NEW": {"marker": "x"},')
     project.edit(SCENE, "[P1, CR]", "[P1, NEW]")
-    assert told(project, "solve", SCENE, "--element", "NEW", "--n", "4")["method"] == "direct"
-    rows = told(project, "errors", SCENE)
+    assert answer_of(project, "solve", SCENE, "--element", "NEW", "--n", "4")["method"] == "direct"
+    rows = answer_of(project, "errors", SCENE)
     old, new = ([row for row in rows if row["element"] == name] for name in ("P1", "NEW"))
     assert [row["n"] for row in new] == [2, 4]
     assert [row["h1"] for row in new] == pytest.approx([row["h1"] for row in old], rel=1e-10)
@@ -95,7 +69,7 @@ def test_a_norm(project):
     project.edit(bounds, '"l2": _l2,', '"l2": _l2,\n    "twice": lambda *parts: 4.0 * _l2(*parts),')
     project.edit(SCHEMA, "enum: [l2, h1_semi,", "enum: [l2, twice, h1_semi,")
     project.edit(SCENE, "norms: [l2, h1]", "norms: [l2, twice]")
-    rows = told(project, "errors", SCENE)
+    rows = answer_of(project, "errors", SCENE)
     assert [row["twice"] for row in rows] == pytest.approx([2.0 * row["l2"] for row in rows])
 
 
@@ -126,7 +100,7 @@ def test_a_solver(project):
     project.edit(facts, '"fourier": GRID,', '"fourier": GRID,\n            "again": GRID,')
     project.edit(routes, '"direct")', '"direct", "again")')
     project.edit(SCENE, "slope: mean", "slope: mean\nsolver: {method: again}")
-    solved = told(project, "solve", SCENE, "--element", "P1", "--n", "4")
+    solved = answer_of(project, "solve", SCENE, "--element", "P1", "--n", "4")
     assert (solved["method"], solved["status"]) == ("again", "solved")
     refused = signorini(project, "solve", SCENE, "--element", "P1", "--n", "2")
     assert refused.returncode == 1
@@ -143,7 +117,7 @@ def test_a_key_of_a_scene(project):
         '        raise SceneError("remark: repeats the title; drop it")\n'
     )
     project.edit(checks, "    _check_norms(document)\n", "    _check_norms(document)\n" + check)
-    assert told(project, "check", SCENE)["document"]["remark"] == "none"
+    assert answer_of(project, "check", SCENE)["document"]["remark"] == "none"
     project.edit(SCENE, "title: A scene for tests", "title: so\nremark: so")
     refused = signorini(project, "check", SCENE)
     assert refused.returncode == 1
@@ -178,7 +152,7 @@ def test_a_command(project):
     project.edit(
         catalogue, '"scenes": "list', '"count": "count the scenes",\n        "scenes": "list'
     )
-    assert told(project, "count", "config/scenes") == len(
+    assert answer_of(project, "count", "config/scenes") == len(
         list((project / "config/scenes").glob("*"))
     )
     assert "count the scenes" in signorini(project, "--help").stdout

@@ -84,7 +84,10 @@ def _trouble(norm, values, round_off):
         return REFERENCE
     if norm == "critical_points":
         return SOUND if all(0.0 < value < math.inf for value in values) else NO_LOGARITHM
-    return ROUND_OFF if any(norm in norms for norms in round_off) else SOUND
+    pairs = zip(values, round_off, strict=True)
+    # A norm that was not asked for is not judged: it is round-off where it is zero beside one.
+    alone = any(norm in norms or (norms and value == 0.0) for value, norms in pairs)
+    return ROUND_OFF if alone else SOUND
 
 
 def trouble_of(row):

@@ -4,6 +4,7 @@ include: "workflow/Snakefile"
 
 # An included file cannot set the default target.
 rule default:
+    """The same as all."""
     default_target: True
     input:
         rules.all.input,

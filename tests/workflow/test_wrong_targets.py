@@ -75,3 +75,12 @@ def test_a_target_with_the_folders_above_it(project):
     (line,) = project.run("--dry-run", str(target)).errors
     assert line.endswith(": name it from the project's folder: results/small/errors.csv")
     assert not (project / "results/small/errors.csv").exists()
+
+
+def test_what_can_be_asked_for_by_name_says_what_it_is(project):
+    """As `snakemake --list-target-rules` prints it: the name, and in brackets what it is."""
+    asked = ("all", "all_scenes", "certificates", "gallery", "gallery_page", "guaranteed")
+    studies = ("adaptive", "benchmark", "sensitivity", "stability", "theory")
+    told = project.build("--list-target-rules").text.splitlines()
+    found = {name for name, _, text in (line.partition(" (") for line in told) if text}
+    assert found >= {*asked, *studies}

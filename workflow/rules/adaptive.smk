@@ -57,6 +57,7 @@ rule figure_adaptive:
 
 # The page comes last, so that where it is there are its figures.
 rule adaptive:
+    """Adaptive meshes beside uniform ones, at the same guaranteed bound."""
     input:
         library("adaptive report"),
         rules.figure_adaptive.output,

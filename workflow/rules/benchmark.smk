@@ -219,6 +219,7 @@ rule benchmark_figure:
 
 # The page comes last, so that where it is there are its figures.
 rule benchmark:
+    """How fast the routes are, beside other solvers on the same matrices."""
     input:
         library("benchmark report"),
         expand(

@@ -52,6 +52,7 @@ GUARANTEED = f"{STUDIES}/guaranteed"
 
 
 rule guaranteed:
+    """The published errors of the scene that is studied, between guaranteed bounds."""
     input:
         library("guaranteed"),
         scene=ancient(studied_scene),

@@ -149,6 +149,7 @@ rule figures_of_details:
 
 
 rule gallery:
+    """A contact sheet of the solutions of all scenes."""
     input:
         library("gallery"),
         scenes=ancient(lambda wildcards: [validated_file(name) for name in known_scenes()]),
@@ -170,8 +171,8 @@ rule gallery:
         " -o {output:q} 2>&1 | tee {log:q}"
 
 
-# All that is built of all scenes on one page; each of the viewers is about 5 MB.
 rule gallery_page:
+    """All that is built of all scenes on one page; each of the viewers is about 5 MB."""
     input:
         library("gallery-page"),
         scenes=ancient(lambda wildcards: [validated_file(name) for name in known_scenes()]),

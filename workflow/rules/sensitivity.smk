@@ -94,6 +94,7 @@ rule figure_sensitivity:
 
 # The page comes last, so that where it is there are its figures.
 rule sensitivity:
+    """What the paper leaves open, and what another choice does to its numbers."""
     input:
         library("sensitivity report"),
         rules.sensitivity_combinations.output,

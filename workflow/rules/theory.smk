@@ -64,6 +64,7 @@ rule figure_theory:
 
 # The page comes last, so that where it is there are its figures.
 rule theory:
+    """Both sides of the paper's statements, on scenes with exact solutions."""
     input:
         library("theory report"),
         rules.figure_theory.output,

@@ -55,3 +55,35 @@ def force_scale(problem, solution):
     _, fluxes, _ = problem.contact_fluxes(solution.u)
     acting = np.max(fluxes + np.abs(problem.b[problem.contact]))
     return max(np.max(solution.multiplier[~solution.undecided], initial=0.0), 1e-6 * acting)
+
+
+def needles(rng):
+    """A leaning strip of needles, stiff and soft, held by the inequality alone."""
+    x, y = np.meshgrid(np.arange(3.0), np.arange(3.0))
+    flat = np.stack([(x + 3.0 * y).ravel(), y.ravel() * 10.0 ** -rng.integers(3, 7)])
+    cosine, sine = np.cos(angle := 6.0 * rng.random()), np.sin(angle)
+    p = np.array([[cosine, -sine], [sine, cosine]]) @ flat
+    cut = {True: [(0, 1, 3), (1, 4, 3)], False: [(0, 1, 4), (0, 4, 3)]}
+    t = [cell + np.array(cut[rng.random() < 0.5]) for cell in (0, 1, 3, 4)]
+    outside = {"outside": lambda x, y: x == x}
+    mesh = signorini.triangulation((p, np.concatenate(t).T), outside)
+    problem = signorini.problem(mesh, "CR", f=0, contact="outside")
+    b = rng.normal(size=problem.b.size)
+    b -= b.mean() + 10.0 ** -rng.integers(0, 6) / b.size
+    near = rng.random(problem.contact.size) < 0.5
+    lower = np.where(near, -1e8, rng.random(near.size))
+    stiff = np.where(rng.random(8) < 0.5, 1e12, 1.0)
+    return replace(problem, b=b, lower=lower, coefficient=stiff)
+
+
+@pytest.mark.parametrize("seed", [276, 507, 0, 1, 2, 3, 4, 5])
+def test_a_body_that_nothing_else_holds_rests_somewhere(seed):
+    """However little is sure of its forces: the first two once hovered above all of the obstacle,
+    and no unknown was called undecided.
+    """
+    problem = needles(np.random.default_rng(seed))
+    try:
+        solution = solve(problem, method="direct")
+    except SolverError:
+        return
+    assert solution.active.any()

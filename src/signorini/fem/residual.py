@@ -15,6 +15,7 @@ FAR_BELOW_EPS = 1e-8 * EPS  # of what u varies: a stiff part feels what is far b
 _ROUNDING = 2.0**-44  # of the terms of a row, below which its sum is taken for zero
 # Roundings of a flux: the coupling, the difference, their product, and the sum of the row.
 _FLUX = 4.0
+_NO_LESS = 1e-6  # of the largest force: where next to none acts
 
 
 def residual(A, b, u, sums=None):
@@ -189,3 +190,35 @@ def rounding_of(b, fluxes):
     4.0
     """
     return EPS * (_FLUX * fluxes + np.abs(b))
+
+
+def rounds_off_below(A, correction, b, u, sums=None):
+    """Rows in which the rounding of a correction of u does no more than that of the forces of u.
+
+    In a stiff part a correction that is small beside u may make more of them than u does.
+
+    Parameters
+    ----------
+    A : scipy.sparse.csr_array, shape (m, m)
+        A stiffness matrix.
+    correction, b, u : ndarray, shape (m,)
+        The correction is in u already.
+    sums : ndarray, shape (m,), optional
+        ``row_sums(A)``, where it is known.
+
+    Returns
+    -------
+    ndarray of bool, shape (m,)
+
+    Examples
+    --------
+    >>> from scipy.sparse import csr_array
+    >>> A = csr_array([[1e9, -1e9], [-1e9, 1e9]])
+    >>> b, u = np.array([-1.0, 1.0]), np.array([1.0, 1.0 + 1e-9])
+    >>> [rounds_off_below(A, size * u, b, u).tolist() for size in (1e-6, 1e-12)]
+    [[False, False], [True, True]]
+    """
+    _, forces = residual_and_fluxes(A, b, u, sums=sums)
+    forces += np.abs(b)
+    forces = np.maximum(forces, _NO_LESS * forces.max(initial=0.0))
+    return abs(A) @ np.abs(correction) <= forces

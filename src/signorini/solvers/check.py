@@ -166,6 +166,37 @@ def _floating_parts(problem):
     return [np.flatnonzero(part == k) for k in np.flatnonzero(~held)]
 
 
+def resting_parts(problem):
+    """The contact dofs of each part of the body that nothing but the inequality holds.
+
+    Of each part some dof binds, whatever rounding says: its load presses (Fichera's condition).
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    list of ndarray of int
+        Places in ``problem.contact``.
+
+    Examples
+    --------
+    >>> import signorini
+    >>> body = signorini.problem(signorini.rectangle(2), "P1", f=-1, contact="bottom")
+    >>> [part.tolist() for part in resting_parts(body)]
+    [[0, 1, 2]]
+    """
+    contact = problem.contact
+    parts = _floating_parts(problem)
+    return [
+        np.arange(contact.size)
+        if part is None
+        else np.flatnonzero(np.isin(contact, part, kind="sort"))
+        for part in parts
+    ]
+
+
 def _place(problem, part):
     """Where a part of the body is, for a message; empty for all of it."""
     if part is None:

@@ -16,9 +16,11 @@ from signorini.fem.residual import (
     residual,
     residual_and_fluxes,
     rounding_of,
+    rounds_off_below,
     row_sums,
 )
 from signorini.memory import check_memory
+from signorini.solvers.check import resting_parts
 from signorini.solvers.conditioning import STRETCHED, accuracy_loss_causes, has_jumps
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.dot import dot
@@ -33,7 +35,7 @@ from signorini.solvers.route_result import (
     violated_signs,
 )
 from signorini.solvers.schur_complement import SchurComplement, singular_message
-from signorini.solvers.signs import Search, settle
+from signorini.solvers.signs import Search, settle, still_resting
 
 _STRICT_STEPS = 10  # steps in which signs count that may be rounding
 _CORRECTIONS, _STEPS = 10, 200
@@ -96,7 +98,7 @@ class _Search(Search):
     def __init__(self, problem, u, guess):
         self.factorised = _FactorisedProblem(problem)
         super().__init__(u, *self.factorised.solve_contact_problem(u, guess))
-        self.strict = True
+        self.strict, self.parts = True, resting_parts(problem)
 
     @property
     def remedy(self):
@@ -117,7 +119,9 @@ class _Search(Search):
     def result(self, errors):
         if not errors.u <= USELESS_ACCURACY * np.ptp(self.u):
             raise SolverError(singular_message(self.factorised.problem))
-        released = self.factorised.release_effect(self.active, self.force <= errors.forces)
+        unsure = self.force <= errors.forces
+        kept = still_resting(self.parts, self.active & ~unsure, self.active, self.force)
+        released = self.factorised.release_effect(self.active, kept, self.force)
         return assess(self.u, self.active, self.steps, self.gap, self.force, errors, released)
 
     def bind(self, near):
@@ -175,18 +179,12 @@ class _FactorisedProblem:
         return u, gap, force, remaining
 
     def _is_weak(self, correction, u):
-        """Whether the rounding of a correction does no more to any row than that of the forces.
-
-        In a stiff part a correction that is small beside u may make more of them than u does.
-        """
+        """Whether forces feel nothing of the rounding of a correction."""
         if self.well_conditioned:
             return True
         problem = self.problem
-        _, forces = residual_and_fluxes(problem.A, problem.b, u, sums=self.sums)
-        forces += np.abs(problem.b)
-        forces = np.maximum(forces, _SMALL * forces.max())
-        by_correction = abs(problem.A) @ np.abs(correction)
-        return bool(np.all((by_correction <= forces)[problem.free]))
+        small = rounds_off_below(problem.A, correction, problem.b, u, self.sums)
+        return bool(small[problem.free].all())
 
     def _correction(self, u, active):
         """What is missing of u; the contact forces then; and what may still be missing of both.
@@ -250,17 +248,18 @@ class _FactorisedProblem:
         force[~active] = 0.0
         return self.schur.back_substitute(load, w, condensed_load), force
 
-    def release_effect(self, active, unsure):
-        """What rounding does with unsure dofs of a contact set let go; None where there are none,
-        or nothing holds.
+    def release_effect(self, active, kept, force):
+        """What rounding does with those of a contact set let go that are not to be kept, and what
+        the forces on them did; None where all are.
         """
-        kept_active = active & ~unsure
-        constrained = self.problem.fixed.size or kept_active.any()
-        if np.array_equal(kept_active, active) or not constrained:
+        if np.array_equal(kept, active):
             return None
-        displacements, forces = self.displacement(self.sample, kept_active)
-        gaps = SAFETY * np.abs(displacements[self.problem.contact])
-        return ReleaseEffect(largest(displacements), gaps, SAFETY * np.abs(forces))
+        let_go = np.zeros_like(self.sample)
+        let_go[self.problem.contact] = np.where(kept, 0.0, force)
+        loads = np.stack([self.sample, let_go], axis=1)
+        displacements, forces = self.displacement(loads, kept)
+        gaps = SAFETY * np.abs(displacements[self.problem.contact]).max(axis=1)
+        return ReleaseEffect(largest(displacements), gaps, SAFETY * np.abs(forces).max(axis=1))
 
     def errors(self, u, active, remaining):
         """Estimated errors of a refined solution.

@@ -7,7 +7,7 @@ import logging
 import numpy as np
 
 from signorini.exceptions import SolverError
-from signorini.fem.residual import EPS, residual_and_fluxes, rounding_of
+from signorini.fem.residual import EPS, contact_fluxes_of, residual_and_fluxes, rounding_of
 from signorini.solvers.conjugate_gradients import ConjugateGradients, approximate_solution
 from signorini.solvers.cycle import preconditioner
 from signorini.solvers.dot import dot
@@ -19,7 +19,7 @@ from signorini.solvers.route_result import (
     assess,
     error_bounds,
 )
-from signorini.solvers.signs import Search
+from signorini.solvers.signs import Search, still_resting
 from signorini.work import count
 
 _MAX_STEPS, _MAX_CORRECTIONS = 300, 30
@@ -62,21 +62,28 @@ class LevelSolver(Search):
 
     def result(self, errors):
         unsure = self.active & (self.force <= errors.forces)
-        release_effect = self._release_effect(unsure) if unsure.any() else None
+        kept = still_resting(self.parts, self.active & ~unsure, self.active, self.force)
+        release_effect = self._release_effect(kept) if (kept != self.active).any() else None
         return assess(self.u, self.active, self.steps, self.gap, self.force, errors, release_effect)
 
-    def _release_effect(self, dofs):
-        """What rounding does with some contact dofs let go; None where nothing else holds."""
-        c, constrained = self.obstacle.contact, self.obstacle.constrained(self.active & ~dofs)
-        if not constrained.any():
-            return None
+    def _release_effect(self, kept):
+        """What rounding does with the other dofs of the contact set let go, and what the forces on
+        them did.
+        """
+        c, constrained = self.obstacle.contact, self.obstacle.constrained(kept)
         rounding = rounding_of(self.obstacle.b, self.fluxes)
         sample = np.copysign(rounding, np.random.default_rng(0).random(constrained.size) - 0.5)
+        let_go = np.zeros_like(sample)
+        let_go[c] = np.where(kept, 0.0, self.force)
         cycle = preconditioner(self.levels, constrained)
-        load = np.where(constrained, 0.0, sample)
-        x = approximate_solution(self.levels[0], cycle, load, _ESTIMATE)
-        forces = np.where(constrained[c], np.abs(self.rows @ x - sample[c]), 0.0)
-        return ReleaseEffect(largest(x), SAFETY * np.abs(x[c]), SAFETY * forces)
+        moved, gaps, forces = 0.0, np.zeros(c.size), np.zeros(c.size)
+        for load in (sample, let_go):
+            free_load = np.where(constrained, 0.0, load)
+            x = approximate_solution(self.levels[0], cycle, free_load, _ESTIMATE)
+            left = np.where(constrained[c], np.abs(self.rows @ x - load[c]), 0.0)
+            moved, gaps = max(moved, largest(x)), np.maximum(gaps, SAFETY * np.abs(x[c]))
+            forces = np.maximum(forces, SAFETY * left)
+        return ReleaseEffect(moved, gaps, forces)
 
     def solve(self, tolerance):
         """Improve u and contact set until the error is `tolerance` of what u varies, or round-off;
@@ -118,7 +125,7 @@ class LevelSolver(Search):
         u[obstacle.contact[active]] = obstacle.lower[active]
         self.constrained = obstacle.constrained(active)
         self.cycle = preconditioner(self.levels, self.constrained)
-        before = np.inf
+        before = last = np.inf
         for _ in range(_MAX_CORRECTIONS):
             iteration = self._next_iteration(tolerance, exact=before < np.inf)
             wrong = iteration.solve()
@@ -128,21 +135,32 @@ class LevelSolver(Search):
             share = iteration.error / (np.ptp(u) or 1.0)
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
             self.force = np.where(active, -iteration.r[obstacle.contact], 0.0)
-            stagnates = iteration.error > 0.5 * before
+            step = largest(iteration.d)
+            # Corrections show what is left, too: cycles that feel little of a soft part do not.
+            left = max(iteration.error, step * min(step / last, 1.0) if last < np.inf else 0.0)
+            stagnates = iteration.error > 0.5 * before and step > 0.5 * last
             shrunk = iteration.size > _SHRUNK * np.ptp(u) and (np.ptp(u) or before == np.inf)
             converged = iteration.converged and iteration.tolerance == tolerance and not shrunk
             if wrong.any() or converged:
                 break
-            if stagnates and iteration.error <= _ACCEPTED_STAGNATION * np.ptp(u):
+            if stagnates and left <= _ACCEPTED_STAGNATION * np.ptp(u):
                 break
             if stagnates:
                 raise SolverError(
                     f"multigrid: the estimated error stays at {share:.1e} of what u varies; "
                     "set solver.method to direct, or to auto"
                 )
-            before = iteration.error
-        self.remaining, self.remaining_force = iteration.error, iteration.force_error
+            before, last = iteration.error, step or 1.0
+        self.remaining = left
+        self.remaining_force = iteration.force_error + self._rounding_of_forces(iteration.d)
         return wrong
+
+    def _rounding_of_forces(self, correction):
+        """What the rounding of the last correction does to a force: in a stiff part one that is
+        small beside u may push harder than all of u.
+        """
+        _, fluxes, _ = contact_fluxes_of(self.rows, self.obstacle.contact, correction)
+        return EPS * float(np.max(fluxes, where=self.active, initial=0.0))
 
     def _next_iteration(self, tolerance, exact):
         """The next one; its residual is taken by differences where plain products would no longer

@@ -18,6 +18,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.memory import check_memory
+from signorini.solvers.check import resting_parts
 from signorini.solvers.conditioning import accuracy_loss_causes
 from signorini.solvers.hierarchy import build_hierarchy
 from signorini.solvers.level import HALF
@@ -134,7 +135,7 @@ class _FinestSolver(LevelSolver):
 
     def __init__(self, problem, levels, obstacle, u, active):
         super().__init__(levels, obstacle, u, active)
-        self.problem = problem
+        self.problem, self.parts = problem, resting_parts(problem)
 
     def refine(self):
         errors = super().refine()

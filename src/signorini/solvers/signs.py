@@ -28,11 +28,14 @@ class Search(ABC):
 
     Attributes
     ----------
+    parts : list of ndarray of int
+        See `check.resting_parts`.
     gap, force : ndarray, shape (nc,)
         After `refine`; unit of u, and of the load.
     """
 
     name, remedy = "", ""
+    parts = ()
 
     def __init__(self, u, active, steps=0):
         self.u, self.active, self.steps = u, active, steps
@@ -77,7 +80,9 @@ class Search(ABC):
             )
         self.steps += 1
         depth = np.where(self.active, self.force, self.gap)
-        self.active[self.rule.choose(self.active, wrong, depth)] ^= True
+        changed = self.active.copy()
+        changed[self.rule.choose(self.active, wrong, depth)] ^= True
+        self.active = still_resting(self.parts, changed, self.active, self.force)
 
     def bind(self, near):
         """Go on with more dofs held, from a copy of u: what was found so far is an answer."""
@@ -103,7 +108,9 @@ def settle(search):
     first = None
     while True:
         errors = search.refine()
-        wrong = search.wrong_signs(errors)
+        changed = search.active ^ search.wrong_signs(errors)
+        held = still_resting(search.parts, changed, search.active, search.force)
+        wrong = held ^ search.active
         if wrong.any():
             search.exchange(wrong)
             continue
@@ -113,3 +120,34 @@ def settle(search):
             return more_accurate(first, result)
         first = result
         search.bind(near)
+
+
+def still_resting(parts, kept, active, force):
+    """Contact dofs that are kept, and where a part of the body would have none the one that is
+    pressed most.
+
+    Parameters
+    ----------
+    parts : sequence of ndarray of int
+        See `check.resting_parts`.
+    kept, active : ndarray of bool, shape (nc,)
+        What is to bind, and what binds.
+    force : ndarray, shape (nc,)
+        Unit of the load.
+
+    Returns
+    -------
+    ndarray of bool, shape (nc,)
+
+    Examples
+    --------
+    >>> none, both = np.array([False, False]), np.array([True, True])
+    >>> still_resting([np.array([0, 1])], none, both, np.array([1e-20, 1e-18])).tolist()
+    [False, True]
+    """
+    kept = kept.copy()
+    for part in parts:
+        holding = part[active[part]]
+        if holding.size and not kept[part].any():
+            kept[holding[np.argmax(force[holding])]] = True
+    return kept

@@ -69,3 +69,7 @@ def test_a_program_with_types_runs():
     resultant, status, _ = program["told"](program["solved"](4))
     assert resultant >= 0.0
     assert status == "solved"
+    *upper, residual, multiplier = program["bounds"]()
+    assert min(upper) > 0.0
+    assert residual < 1e-10
+    assert multiplier >= 0.0

@@ -1,5 +1,9 @@
 """A program as a user writes it with annotations: `make lint` checks its types, a test runs it."""
 
+# mypy: disallow-untyped-calls
+
+import numpy as np
+
 import signorini
 
 
@@ -21,6 +25,21 @@ def solved(n: int) -> signorini.Solution:
         coefficient=2.0,
     )
     return signorini.solve(problem)
+
+
+def bounds() -> list[float]:
+    """What may be arrays, or come in any order; and a scene."""
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    triangle = signorini.polygon(corners, 4, sides=["floor", "slope", "wall"])
+    square = signorini.rectangle(2, size=np.array([1.0, 1.0]))
+    held = {"wall", "slope"}
+    slanted = signorini.problem(triangle, f=-1, dirichlet=held, contact=("floor",))
+    flat = signorini.problem(square, f=-1, dirichlet="top")
+    scene: signorini.Scene = signorini.load_scene("config/scenes/punch.yaml")
+    last: signorini.Problem = signorini.discretize(scene, "CR", scene.levels[0])
+    found = [signorini.certify(signorini.solve(each)).upper for each in (slanted, flat)]
+    residual, multiplier = signorini.kkt_residual(last, signorini.solve(last).u)
+    return [*found, residual, float(multiplier.min())]
 
 
 def told(solution: signorini.Solution) -> tuple[float, str, int]:

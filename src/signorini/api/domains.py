@@ -5,6 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from signorini.api.arguments import described
 from signorini.api.meshes import Mesh, check_level
 from signorini.exceptions import MeshError
@@ -20,8 +22,8 @@ _REMEDY = (
 
 def rectangle(
     n: int,
-    origin: Sequence[float] = (0.0, 0.0),
-    size: Sequence[float] = (1.0, 1.0),
+    origin: ArrayLike = (0.0, 0.0),
+    size: ArrayLike = (1.0, 1.0),
     diagonal: str = "falling",
     cells: str = "per-unit",
 ) -> Mesh:
@@ -71,10 +73,10 @@ def _cut(section: dict[str, Any], n: int) -> Any:
 
 
 def polygon(
-    corners: Sequence[Sequence[float]],
+    corners: ArrayLike,
     n: int,
     sides: Sequence[str] | None = None,
-    holes: Sequence[Sequence[Sequence[float]]] = (),
+    holes: Sequence[ArrayLike] = (),
     boundary_shape: Mapping[str, Any] | None = None,
 ) -> Mesh:
     """A polygon, triangulated by Netgen.

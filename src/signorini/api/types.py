@@ -1,6 +1,6 @@
 """Types of what a program may give."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,4 +15,4 @@ Datum: TypeAlias = float | str | Callable[..., Any]
 # For all parts of the boundary, or name of a part -> datum.
 PartwiseDatum: TypeAlias = Datum | Mapping[str, Datum]
 # One part of the boundary, or several.
-Names: TypeAlias = str | Sequence[str]
+Names: TypeAlias = str | Collection[str]

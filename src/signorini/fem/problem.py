@@ -1,6 +1,7 @@
 """From a scene to a discrete problem, which `discrete_problem` describes."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from signorini.fem.precision import LOAD_PRECISIONS
 __all__ = ["Problem", "discretize", "discretize_on"]
 
 
-def discretize(scene, element, n):
+def discretize(scene: Any, element: str, n: int) -> Problem:
     """Discretise a scene.
 
     Parameters

@@ -33,7 +33,7 @@ def scene_schema():
     return load_yaml(Path(__file__).with_name("schema.yaml"))
 
 
-def load_scene(path):
+def load_scene(path: str | Path) -> Scene:
     """Read a scene file and check all that can be checked before work is done.
 
     Parameters

@@ -1,11 +1,16 @@
 """A scene: one whole question, validated."""
 
+from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from signorini.exceptions import SignoriniError, StorageError
+
+if TYPE_CHECKING:
+    from signorini.fem.discrete_problem import Problem
 
 
 @dataclass(frozen=True, repr=False)
@@ -28,18 +33,20 @@ class Scene:
     """
 
     name: str
-    document: dict
+    document: dict[str, Any]
     source: Path | None = None
     reference_note: str | None = None
-    written: dict | None = None
+    written: dict[str, Any] | None = None
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         levels = ", ".join(map(str, self.levels))
         solved = f"{', '.join(self.elements)} on n = {levels}"
         return f"<Scene {self.name}: {solved}; truth {self.truth['kind']}>"
 
     @classmethod
-    def from_dict(cls, mapping, name="scene", folder="."):
+    def from_dict(
+        cls, mapping: Mapping[str, Any], name: str = "scene", folder: str | Path = "."
+    ) -> "Scene":
         """A scene from a mapping: what `load_scene` reads, without a file.
 
         Parameters
@@ -79,7 +86,7 @@ class Scene:
 
         return scene_of_mapping(mapping, name, folder)
 
-    def problem(self, element, n):
+    def problem(self, element: str, n: int) -> "Problem":
         """The discrete problem of one element and level; as `discretize`.
 
         Parameters
@@ -114,7 +121,7 @@ class Scene:
 
         return ProblemStatement.from_mapping(self.statement)
 
-    def check(self):
+    def check(self) -> None:
         """Check what only a triangulation shows; errors name the file.
 
         Raises
@@ -125,7 +132,7 @@ class Scene:
         with naming(self.source):
             self.problem_statement.check()
 
-    def section(self, *keys):
+    def section(self, *keys: str) -> dict[str, Any]:
         """The parts of the document with the names `keys`, as a new dict.
 
         Examples
@@ -137,7 +144,7 @@ class Scene:
         return {key: self.document[key] for key in keys}
 
     @property
-    def statement(self):
+    def statement(self) -> dict[str, Any]:
         """The parts of the document that `ProblemStatement.from_mapping` reads, as a new dict.
 
         Examples
@@ -153,7 +160,7 @@ class Scene:
         return parts | {"coarsest": self.levels[0]}
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """What a user should know though the scene is valid: lines that name their field.
 
         Examples
@@ -166,7 +173,7 @@ class Scene:
         return [f"truth.n: {self.reference_note}"] if measured and self.reference_note else []
 
     @property
-    def elements(self):
+    def elements(self) -> list[str]:
         """Elements compared, a list of names.
 
         Examples
@@ -178,7 +185,7 @@ class Scene:
         return self.document["elements"]
 
     @property
-    def levels(self):
+    def levels(self) -> list[int]:
         """Levels n = 1/h, increasing.
 
         Examples
@@ -190,7 +197,7 @@ class Scene:
         return self.document["levels"]
 
     @property
-    def truth(self):
+    def truth(self) -> dict[str, Any]:
         """The section ``truth``.
 
         Examples

@@ -1,6 +1,7 @@
 """A solution, and its KKT residual, computed from the problem alone."""
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,6 +10,11 @@ from signorini.fem.discrete_problem import Problem
 from signorini.fem.mirror import mirrored, negated
 from signorini.solvers.proof import violation
 from signorini.work import count
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,8 +143,8 @@ class Solution:
         )
 
 
-def kkt_residual(problem, u):
-    """Largest relative violation of the KKT conditions by `u`.
+def kkt_residual(problem: Problem, u: "Floats") -> "tuple[float, Floats]":
+    """Largest relative violation of the KKT conditions by `u`, and its multiplier.
 
     With r = A u - b, the multiplier lambda = r on the contact dofs, and
 

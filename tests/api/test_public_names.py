@@ -72,4 +72,4 @@ def test_a_program_with_types_runs():
     *upper, residual, multiplier = program["bounds"]()
     assert min(upper) > 0.0
     assert residual < 1e-10
-    assert multiplier >= 0.0
+    assert multiplier > -1e-10  # the least force, up to rounding

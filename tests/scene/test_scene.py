@@ -9,7 +9,8 @@ import pytest
 
 from scene_texts import VALID, changed
 from signorini.exceptions import MeshError, SceneError
-from signorini.scene.read import check_name, load_scene, read_scene, scene_schema
+from signorini.scene.file_names import check_name
+from signorini.scene.read import load_scene, read_scene, scene_schema
 from signorini.scene.schema import validated
 
 ROOT = Path(__file__).parents[2]

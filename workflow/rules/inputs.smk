@@ -4,7 +4,8 @@ from signorini.mesh.boundary import labels_of
 from signorini.mesh.files import files_read
 from signorini.publication.check import check_publication
 from signorini.scene.certified import is_certifiable, is_certified
-from signorini.scene.read import check_name, check_points, read_scene, scene_of_point
+from signorini.scene.file_names import check_name
+from signorini.scene.read import check_points, read_scene, scene_of_point
 from signorini.scene.validated import keep_validated
 from signorini.wording import listed
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from signorini.commands.catalogue import Outcome
 from signorini.exceptions import SceneError, StorageError
-from signorini.scene.read import check_name
+from signorini.scene.file_names import check_name
 from signorini.storage import replacing
 
 _LIBRARY = Path(__file__).parents[1]

@@ -85,14 +85,18 @@ def domains(sizes, offsets):
         for method, base in solutions(discretize(_waves(), element, _N)):
             identity = {"element": element, "method": method}
             for kind, value, moved in cases:
-                row = identity | {"kind": kind, "value": value, "change": None, "refused": ""}
-                try:
-                    u = solve(discretize(moved, element, _N), method).u
-                    row["change"] = float(np.max(np.abs(u - base.u)) / np.max(np.abs(base.u)))
-                except SignoriniError as error:
-                    row["refused"] = str(error)
-                rows.append(row)
+                row = identity | {"kind": kind, "value": value}
+                rows.append(row | _change_of_u(moved, element, method, base.u))
     return rows
+
+
+def _change_of_u(statement, element, method, before):
+    """The largest relative change of u, or why there is none."""
+    try:
+        u = solve(discretize(statement, element, _N), method).u
+    except SignoriniError as error:
+        return {"change": None, "refused": str(error)}
+    return {"change": float(np.max(np.abs(u - before)) / np.max(np.abs(before))), "refused": ""}
 
 
 def _waves(size=1.0, offset=0.0):

@@ -18,7 +18,7 @@ PROSE = re.compile(r"`(?:[\w./]*bin/|python3? -m )?(signorini(?: [^`]+))`")
 PLACEHOLDERS = {"COMMAND"}  # that stand for any command
 OPTION = re.compile(r"`(--[a-z][\w-]*)[^`]*`")
 OTHERS = {
-    "snakemake": {"--config", "--cores", "--rerun-incomplete", "--unlock"},
+    "snakemake": {"--config", "--cores", "--forcerun", "--rerun-incomplete", "--unlock"},
     "its Slurm plugin": {"--slurm-no-account", "--slurm-status-command"},
     "mpiexec": {"--allow-run-as-root", "--oversubscribe"},
     "benchmarks/growth.py": {"--sizes"},

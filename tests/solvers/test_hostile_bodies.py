@@ -76,6 +76,22 @@ def needles(rng):
     return replace(problem, b=b, lower=lower, coefficient=stiff)
 
 
+@pytest.mark.parametrize("seed", [19, 27, 64, 150, 199, *range(5)])
+def test_u_is_as_accurate_as_stated_where_factors_lose_their_digits(seed):
+    """Of needles a thousand to a million times as long as high, stiff ones beside soft ones. The
+    first five were off by up to a million times what was stated.
+    """
+    problem = needles(np.random.default_rng(seed))
+    try:
+        solution = solve(problem, method="direct")
+    except SolverError:
+        return
+    u, _, active = exact_solution(problem)
+    u = rounded(u)
+    assert np.abs(u - solution.u).max() <= 10.0 * solution.accuracy * np.ptp(u)
+    assert not np.any((solution.active != np.array(active)) & ~solution.undecided)
+
+
 @pytest.mark.parametrize("seed", [276, 507, 0, 1, 2, 3, 4, 5])
 def test_a_body_that_nothing_else_holds_rests_somewhere(seed):
     """However little is sure of its forces: the first two once hovered above all of the obstacle,

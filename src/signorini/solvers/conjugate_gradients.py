@@ -115,14 +115,38 @@ class ConjugateGradients:
         """Least eigenvalue of the preconditioned matrix that conjugate gradients have met, at most
         1 (Lanczos).
         """
-        alphas, betas = np.array(self.alphas), np.array(self.betas)
-        if not alphas.size:
+        if not self.alphas:
             return self.solver.smallest_eigenvalue
-        diagonal = 1.0 / alphas
-        diagonal[1:] += betas[1:] / alphas[:-1]
-        beside = np.sqrt(betas[1:]) / alphas[:-1]
-        T = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
-        return float(np.clip(np.linalg.eigvalsh(T)[0], EPS, 1.0))
+        return least_eigenvalue(self.alphas, self.betas)
+
+
+def least_eigenvalue(alphas, betas):
+    """Least eigenvalue of the preconditioned matrix that conjugate gradients have met, at most 1
+    (Lanczos).
+
+    Parameters
+    ----------
+    alphas, betas : sequence of float
+        Of each step the share of its direction, and what it kept of the one before.
+
+    Returns
+    -------
+    float
+        Dimensionless: 1 where the preconditioner is the inverse.
+
+    Examples
+    --------
+    One step of 4 times the preconditioned residual solves with a matrix of a quarter:
+
+    >>> least_eigenvalue([4.0], [0.0])
+    0.25
+    """
+    alphas, betas = np.array(alphas), np.array(betas)
+    diagonal = 1.0 / alphas
+    diagonal[1:] += betas[1:] / alphas[:-1]
+    beside = np.sqrt(betas[1:]) / alphas[:-1]
+    T = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
+    return float(np.clip(np.linalg.eigvalsh(T)[0], EPS, 1.0))
 
 
 def _greatest_nearby(rows, values):

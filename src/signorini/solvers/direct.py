@@ -22,6 +22,7 @@ from signorini.fem.residual import (
 from signorini.memory import check_memory
 from signorini.solvers.check import resting_parts
 from signorini.solvers.conditioning import STRETCHED, accuracy_loss_causes, has_jumps
+from signorini.solvers.conjugate_gradients import least_eigenvalue
 from signorini.solvers.contact import DenseContact, solve_contact
 from signorini.solvers.dot import dot
 from signorini.solvers.extremes import largest
@@ -44,6 +45,7 @@ _CERTAIN = 1e-11  # a correction by good factors of which share of u is one to t
 _STALLED = 0.7  # of the least correction before: no gain
 _PATIENCE = 12  # corrections without gain before giving up
 _STAGNATION_FACTOR = 20.0  # what may be left of corrections that stall, over the last
+_POOR = 0.5  # least eigenvalue of what factors make of A, 1 where they lost no digit
 _SAMPLES = 2  # random signs of the rounding errors whose effect is looked at
 
 
@@ -164,8 +166,8 @@ class _FactorisedProblem:
         """
         problem = self.problem
         u[problem.contact[active]] = problem.lower[active]
-        u = u + self.displacement(residual(problem.A, problem.b, u, self.sums), active)[0]
-        last = np.inf
+        sums, last = self.sums, np.inf
+        u = u + self.displacement(residual(problem.A, problem.b, u, sums), active)[0]
         for _ in range(_CORRECTIONS):
             correction, force, remaining = self._correction(u, active)
             # The correction goes to the gap before u rounds it off.
@@ -173,18 +175,12 @@ class _FactorisedProblem:
             u = u + correction
             size, step = np.ptp(u), largest(correction)
             small = step <= _SMALL * size and remaining[0] <= _CERTAIN * size
-            if small and (step > 0.5 * last or self._is_weak(correction, u)):
+            if small and (step > 0.5 * last or self.well_conditioned):
+                break
+            if small and rounds_off_below(problem.A, correction, problem.b, u, problem.free, sums):
                 break
             last = step
         return u, gap, force, remaining
-
-    def _is_weak(self, correction, u):
-        """Whether forces feel nothing of the rounding of a correction."""
-        if self.well_conditioned:
-            return True
-        problem = self.problem
-        small = rounds_off_below(problem.A, correction, problem.b, u, self.sums)
-        return bool(small[problem.free].all())
 
     def _correction(self, u, active):
         """What is missing of u; the contact forces then; and what may still be missing of both.
@@ -192,6 +188,7 @@ class _FactorisedProblem:
         The residual of u is taken once. All that follows is as small as the correction, and so is
         its rounding.
         """
+        self.least = 1.0
         r, size = residual(self.problem.A, self.problem.b, u, self.sums), float(np.ptp(u))
         z, force = self.displacement(r, active)
         if self.well_conditioned and largest(z) <= _CERTAIN * size:
@@ -205,6 +202,7 @@ class _FactorisedProblem:
         result, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, largest(z), np.inf
         last, best, stalled, best_so_far, per_step = step, step, 0, (result, force), 0.0
+        shares = []
         for _ in range(_STEPS):
             if not step:
                 return result, force, (0.0, 0.0)
@@ -216,6 +214,8 @@ class _FactorisedProblem:
             if not energy > 0.0:  # the square of what is missing is no double any more
                 break
             alpha = rz / energy
+            shares.append((alpha, max(rz / before, 0.0)))
+            self.least = min(self.least, least_eigenvalue(*zip(*shares, strict=True)))
             result = result + alpha * p
             r -= alpha * Ap
             z, forced = self.displacement(r, active)
@@ -277,6 +277,9 @@ class _FactorisedProblem:
         samples = np.copysign(rounding[:, None], signs)
         condensed_load, self.sample = self.schur.condense(samples), samples[:, -1]
         displacements, forces_left = self.displacement(samples, active, condensed_load)
+        if self.least < _POOR:  # factors that lost digits take soft parts for stiffer
+            displacements, forces_left = displacements / self.least, forces_left / self.least
+            remaining = remaining[0] / self.least, remaining[1] / self.least
         largest_u = largest(displacements[:, 1:])
         # Two rows of a sample may cancel in a force; its own row stays.
         own = rounding[problem.contact[active]]
@@ -285,13 +288,12 @@ class _FactorisedProblem:
         gaps = error_bounds(on_contact[0], on_contact[1:])
         forces = error_bounds(forces_left.T[0], forces_left.T[1:])
         force_scale = np.max((fluxes + np.abs(problem.b))[problem.contact], initial=0.0)
-        stiffness = self.schur.S.diagonal()
         return ErrorEstimates(
             u=largest_u + remaining[0],
             force=largest_force + remaining[1],
             gaps=gaps + remaining[0],
             forces=forces + remaining[1],
             loads=np.abs(condensed_load[:, 0]),
-            stiffness=stiffness,
+            stiffness=self.schur.S.diagonal(),
             force_scale=force_scale,
         )

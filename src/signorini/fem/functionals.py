@@ -44,6 +44,17 @@ def binding_length(mesh, solution):
     -------
     float
         Unit of length.
+
+    Examples
+    --------
+    The whole bottom side of the patch test is in contact:
+
+    >>> from signorini import load_scene
+    >>> from signorini.api.solving import solve_level
+    >>> scene = load_scene("config/scenes/patch.yaml")
+    >>> mesh = scene.problem_statement.triangulations.level(4)
+    >>> binding_length(mesh, solve_level(scene, "CR", 4))
+    1.0
     """
     pieces = binding_pieces(mesh, solution)
     return float(np.hypot(*(pieces[:, 1] - pieces[:, 0]).T).sum())

@@ -109,6 +109,14 @@ def labelled_ends(mesh, rules, rest=None):
     Returns
     -------
     dict of str to ndarray of int, shape (2, k)
+
+    Examples
+    --------
+    >>> from signorini.mesh.patterns import criss_cross
+    >>> mesh = criss_cross(2, 1, (0, 0), (2, 1))
+    >>> ends = labelled_ends(mesh, {"bottom": "contact"}, rest="neumann")
+    >>> ends["contact"].T.tolist(), ends["neumann"].shape
+    ([[0, 1], [1, 2]], (2, 4))
     """
     carries = label_boundary(mesh, rules, rest)
     return {label: mesh.facets[:, facets] for label, facets in carries.items()}

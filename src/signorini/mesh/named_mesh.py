@@ -42,12 +42,30 @@ class NamedMesh:
 
     @property
     def facets(self):
-        """End vertices of each facet, shape (2, nf), numbered as scikit-fem does."""
+        """End vertices of each facet, shape (2, nf), numbered as scikit-fem does.
+
+        Examples
+        --------
+        >>> p = np.array([[0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
+        >>> mesh = NamedMesh(p, np.array([[0, 3], [1, 2], [2, 1]]))
+        >>> mesh.facets.tolist()
+        [[0, 0, 1, 1, 2], [1, 2, 2, 3, 3]]
+        """
         return self._facets[0]
 
     @property
     def t2f(self):
-        """Facets of each triangle, shape (3, nt), in the order (01, 12, 02)."""
+        """Facets of each triangle, shape (3, nt), in the order (01, 12, 02).
+
+        Examples
+        --------
+        Two triangles share the facet 2:
+
+        >>> p = np.array([[0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
+        >>> mesh = NamedMesh(p, np.array([[0, 3], [1, 2], [2, 1]]))
+        >>> mesh.t2f.T.tolist()
+        [[0, 2, 1], [4, 2, 3]]
+        """
         return self._facets[1]
 
     def with_vertices(self, p):
@@ -66,7 +84,17 @@ class NamedMesh:
 
     @cached_property
     def boundary(self):
-        """Facets on the boundary, increasing."""
+        """Facets on the boundary, increasing.
+
+        Examples
+        --------
+        All facets but the one that two triangles share:
+
+        >>> p = np.array([[0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
+        >>> mesh = NamedMesh(p, np.array([[0, 3], [1, 2], [2, 1]]))
+        >>> mesh.boundary.tolist()
+        [0, 1, 3, 4]
+        """
         return np.flatnonzero(np.bincount(self.t2f.ravel()) == 1)
 
     @cached_property

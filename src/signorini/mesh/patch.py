@@ -167,6 +167,14 @@ def facets_along(mesh, chain):
     Returns
     -------
     ndarray of int, shape (k, m - 1)
+
+    Examples
+    --------
+    >>> from signorini.mesh.triangulation import Triangulation
+    >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+    >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+    >>> facets_along(mesh, np.array([[0, 1, 2]])).tolist()
+    [[0, 2]]
     """
     keys = pair_keys(mesh.facets, mesh.number_of_vertices)
     ends = np.stack([chain[:, :-1].ravel(), chain[:, 1:].ravel()])

@@ -36,6 +36,17 @@ def refined_arrays(mesh):
         For each label both halves of its facets.
     subdomains : dict of str to ndarray of int
         For each subdomain the children of its triangles.
+
+    Examples
+    --------
+    Three vertices and three midpoints, four triangles, two halves of the contact side:
+
+    >>> from signorini.mesh.triangulation import Triangulation
+    >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+    >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+    >>> p, t, ends, _ = refined_arrays(mesh)
+    >>> p.shape, t.shape, ends["contact"].tolist()
+    ((2, 6), (3, 4), [[0, 1], [3, 3]])
     """
     start, end = mesh.facets
     p = np.concatenate([mesh.p, 0.5 * (mesh.p[:, start] + mesh.p[:, end])], axis=1)
@@ -67,6 +78,17 @@ def refined_facets(parent, t):
     -------
     facets : ndarray of int32, shape (2, 2 nf + 3 nt)
     t2f : ndarray of int32, shape (3, 4 nt)
+
+    Examples
+    --------
+    Two halves of each of three facets, and three facets inside:
+
+    >>> from signorini.mesh.triangulation import Triangulation
+    >>> ends = {"contact": [[0], [1]], "dirichlet": [[1, 0], [2, 2]]}
+    >>> mesh = Triangulation([[0, 1, 0], [0, 0, 1]], [[0], [1], [2]], ends)
+    >>> facets, t2f = refined_facets(mesh, refined_arrays(mesh)[1])
+    >>> facets.shape, t2f.shape
+    ((2, 9), (3, 4))
     """
     number_of_halves, count = 2 * parent.number_of_facets, parent.number_of_triangles
     facets = np.empty((2, number_of_halves + 3 * count), dtype=t.dtype)

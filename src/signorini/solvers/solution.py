@@ -131,6 +131,18 @@ class Solution:
         Returns
         -------
         Solution
+
+        Examples
+        --------
+        An obstacle from above is one from below for -u:
+
+        >>> import signorini
+        >>> from signorini.fem.mirror import mirrored
+        >>> data = {"f": 1, "obstacle": 0.01, "dirichlet": "top", "contact": "bottom"}
+        >>> problem = signorini.problem(signorini.rectangle(4), constraint="upper", **data)
+        >>> again = signorini.solve(mirrored(problem)).mirrored(problem)
+        >>> bool(np.all(again.u == signorini.solve(problem).u))
+        True
         """
         u = negated(self.u)
         return replace(

@@ -17,6 +17,9 @@ WRONG = {
     ("results/../../x/errors.csv",): "../x/errors.csv: known: adaptive, all, ",
     ("errors",): TARGET,
     ("paper",): TARGET,
+    ("sensitivity", "--config", "studied=smal"): (
+        "error: --config: studied: there is no config/scenes/smal.yaml; did you mean small?"
+    ),
     ("--until", "erors"): "erors: did you mean errors? known: adaptive, adaptive_run, ",
 }
 # File -> the scene that is asked for and what the line says.

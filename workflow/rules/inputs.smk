@@ -29,14 +29,19 @@ def written(name):
     check_name(name)
     path = Path("config/scenes", f"{name}.yaml")
     if not path.is_file():
-        place = (
-            f"{where_asked('scenes')}: scenes" if name in CONFIG["scenes"] else f"results/{name}"
-        )
-        raise SignoriniError(f"{place}: {missing_scene(name, path)}")
+        raise SignoriniError(f"{where_named(name)}: {missing_scene(name, path)}")
     found = read_scene(path)
     for line in found.warnings:
         print(f"warning: {path}: {line}", file=sys.stderr)
     return found
+
+
+def where_named(name):
+    """The place that asks for a scene, for messages: a key of the configuration, or a target."""
+    if name in CONFIG["scenes"]:
+        return f"{where_asked('scenes')}: scenes"
+    is_studied = name == CONFIG.get("studied")
+    return f"{where_asked('studied')}: studied" if is_studied else f"results/{name}"
 
 
 def missing_scene(name, path):

@@ -27,6 +27,7 @@ def check_data(problem):
     Traceback (most recent call last):
     signorini.exceptions.SolverError: problem.b: entry 0 is nan; all data must be finite
     """
+    _check_arrays(problem)
     for name in ("b", "lower", "fixed_values"):
         values = getattr(problem, name)
         if not np.all(np.isfinite(values)):
@@ -42,11 +43,33 @@ def check_data(problem):
             raise SolverError(
                 f"problem.{dofs}: a dof is not one of the {problem.b.size} that problem.b has"
             )
+        if np.any(np.diff(numbers) <= 0):
+            raise SolverError(
+                f"problem.{dofs}: the dofs do not increase; sort them, each once, with their "
+                f"entries of problem.{values}"
+            )
     if np.intersect1d(problem.contact, problem.fixed).size:
         raise SolverError(
             "problem.contact: a dof is in problem.fixed, too; leave it out of one of them"
         )
     _check_coefficient(problem.coefficient)
+
+
+def _check_arrays(problem):
+    """Refuse what is no array of real numbers of the right shape."""
+    cells = problem.mesh.number_of_triangles
+    for name in ("b", "contact", "lower", "fixed", "fixed_values", "coefficient"):
+        values = getattr(problem, name)
+        if values is None and name == "coefficient":
+            continue
+        kinds, what = ("iu", "whole") if name in ("contact", "fixed") else ("fiu", "real")
+        if not isinstance(values, np.ndarray) or values.ndim != 1 or values.dtype.kind not in kinds:
+            raise SolverError(f"problem.{name}: give an array of {what} numbers in one dimension")
+        if name == "coefficient" and values.size != cells:
+            raise SolverError(
+                f"problem.coefficient: {values.size} numbers; give one for each of the {cells} "
+                "triangles"
+            )
 
 
 def _check_coefficient(k):

@@ -201,8 +201,7 @@ class _FactorisedProblem:
         """
         result, p, nothing = np.zeros_like(r), np.zeros_like(r), np.zeros_like(r)
         rz, step, change = np.inf, largest(z), np.inf
-        last, best, stalled, best_so_far, per_step = step, step, 0, (result, force), 0.0
-        shares = []
+        last, best, stalled, best_so_far, per_step, shares = step, step, 0, (result, force), 0.0, []
         for _ in range(_STEPS):
             if not step:
                 return result, force, (0.0, 0.0)
@@ -215,7 +214,8 @@ class _FactorisedProblem:
                 break
             alpha = rz / energy
             shares.append((alpha, max(rz / before, 0.0)))
-            self.least = min(self.least, least_eigenvalue(*zip(*shares, strict=True)))
+            met = least_eigenvalue(*zip(*shares, strict=True))
+            self.least = min(self.least, met if met > EPS else 1.0)  # or rounding made it up
             result = result + alpha * p
             r -= alpha * Ap
             z, forced = self.displacement(r, active)

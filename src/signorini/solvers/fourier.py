@@ -53,7 +53,19 @@ def why_not(problem):
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:
         return "the grid is a single cell wide"
+    if not _is_of_sides(problem):
+        return "the dofs in contact or fixed are not those of whole sides"
     return None if orient(grid) else "the two sides beside the contact side differ in kind"
+
+
+def _is_of_sides(problem):
+    """Whether contact and fixed dofs are those that the grid's labels name."""
+    fixed, contact = (
+        problem.finite_element.boundary_dofs(problem.grid, label)
+        for label in ("dirichlet", "contact")
+    )
+    contact = np.setdiff1d(contact, fixed, assume_unique=True)
+    return np.array_equal(problem.fixed, fixed) and np.array_equal(problem.contact, contact)
 
 
 def solve_fourier(problem, guess=None):

@@ -167,7 +167,7 @@ def check_solvable(problem):
     Traceback (most recent call last):
     signorini.exceptions.SolverError: unbounded: no dirichlet part and int f + int g = ...
     """
-    for part in _floating_parts(problem):
+    for part in floating_parts(problem):
         load = problem.b if part is None else problem.b[part]
         contact = (
             problem.contact.size
@@ -177,8 +177,24 @@ def check_solvable(problem):
         _check_load(load, contact, _place(problem, part), _words(problem))
 
 
-def _floating_parts(problem):
-    """The dofs of each part of the body without a fixed one; None for all of a body in one part."""
+def floating_parts(problem):
+    """The dofs of each part of the body without a fixed one; None for all of a body in one part.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    list
+        Arrays of int, or only None.
+
+    Examples
+    --------
+    >>> from signorini import discretize, load_scene
+    >>> floating_parts(discretize(load_scene("config/scenes/paper.yaml"), "P1", 2))
+    []
+    """
     if problem.grid is not None or problem.mesh.in_one_part:
         return [] if problem.fixed.size else [None]
     from scipy.sparse.csgraph import connected_components
@@ -211,7 +227,7 @@ def resting_parts(problem):
     [[0, 1, 2]]
     """
     contact = problem.contact
-    parts = _floating_parts(problem)
+    parts = floating_parts(problem)
     return [
         np.arange(contact.size)
         if part is None

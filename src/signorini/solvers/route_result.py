@@ -244,14 +244,29 @@ def assess(u, active, iterations, gap, force, errors, released=None):
     moved = max(released.u, _largest(shift, binding)) + _largest(gap, not_binding)
     pressed = _largest(force, binding) + _largest(errors.loads, not_binding)
     variation = variation_of(u)
-    accuracy = _relative(errors.u + moved, variation)
-    scale = _force_scale(_largest(force, active & ~undecided), errors.force_scale)
-    multiplier_accuracy = _relative(errors.force + pressed, scale)
+    accuracy = relative(errors.u + moved, variation)
+    scale = force_scale(_largest(force, active & ~undecided), errors.force_scale)
+    multiplier_accuracy = relative(errors.force + pressed, scale)
     return RouteResult(u, active, iterations, accuracy, force, multiplier_accuracy, undecided)
 
 
-def _force_scale(largest_certain, acting):
-    """What errors of forces are relative to: the largest certain force, or what acts at all."""
+def force_scale(largest_certain, acting):
+    """What errors of forces are relative to: the largest certain force, or what acts at all.
+
+    Parameters
+    ----------
+    largest_certain, acting : float
+        Unit of the load.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> force_scale(0.5, 2.0), force_scale(0.0, 2.0)
+    (0.5, 2.0)
+    """
     return max(largest_certain, SMALLEST_FORCE_SCALE * acting) if largest_certain else acting
 
 
@@ -288,7 +303,14 @@ def _largest(values, where):
     return float(np.max(np.abs(values), where=where, initial=0.0))
 
 
-def _relative(error, size):
+def relative(error, size):
+    """An error in shares of a size: infinite where that is zero, and 0 where there is no error.
+
+    Examples
+    --------
+    >>> relative(1.0, 4.0), relative(1.0, 0.0), relative(0.0, 0.0)
+    (0.25, inf, 0.0)
+    """
     if not error:
         return 0.0
     return float(error / size) if size else np.inf

@@ -7,6 +7,7 @@ import numpy as np
 
 from signorini.exceptions import SolverError
 from signorini.fem.mirror import mirrored
+from signorini.solvers.balance import held_in_balance
 from signorini.solvers.check import check_data, check_solvable, check_symmetric, checked_guess
 from signorini.solvers.conditioning import accuracy_loss_causes
 from signorini.solvers.proof import accuracy_of, proved_status
@@ -90,6 +91,7 @@ def _solved(problem, method, reason, guess, wanted):
     shifted, constant, found = rest or solve_from_constant(scaled, find, guess)
     result, method, reason = found
     hold_on_obstacle(shifted, result.u, result.active)
+    result = held_in_balance(shifted, result)
     residual, _ = kkt_residual(shifted, result.u)
     accuracy = accuracy_of(result, constant)
     status = _checked_status(problem, method, residual, accuracy, result)

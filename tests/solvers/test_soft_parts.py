@@ -3,10 +3,13 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 import signorini
 from rational import exact_solution, rounded
+from signorini.generated.problems import instance
 from signorini.solvers import solve
+from signorini.solvers.attempts import attempt
 
 X = [0.65, 1.39, 1.35, 2.67, 3.0, 1.93, 3.26, 0.0, 4.0, 2.63]
 X += [0.26, 1.4, 3.96, 1.67, 1.44, 1.0, 0.39, 0.44, 0.69, 0.96]
@@ -38,3 +41,13 @@ def test_multigrid_states_no_more_than_its_corrections_show():
     solution = solve(problem, method="multigrid")
     off = np.abs(rounded(exact_solution(problem)[0]) - solution.u).max() / np.ptp(solution.u)
     assert off <= 10.0 * solution.accuracy
+
+
+@pytest.mark.parametrize("family", ["inclusions", "oscillating"])
+@pytest.mark.parametrize("element", ["P1", "CR"])
+def test_corrections_in_the_last_bit_of_u_are_no_reason_to_refuse(family, element):
+    """They fall no further, where u varies by little more than that bit."""
+    for seed in range(18):
+        problem = instance(family, "degenerate", element, seed).problem
+        found = attempt(problem, "multigrid")
+        assert not found.applies or found.error is None, f"seed {seed}: {found.error}"

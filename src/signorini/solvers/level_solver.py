@@ -136,14 +136,13 @@ class LevelSolver(Search):
             _log.info("multigrid: %d dofs, %d in contact, error %.0e", u.size, active.sum(), share)
             self.force = np.where(active, -iteration.r[obstacle.contact], 0.0)
             step = largest(iteration.d)
-            # Corrections show what is left, too: cycles that feel little of a soft part do not.
-            left = max(iteration.error, step * min(step / last, 1.0) if last < np.inf else 0.0)
+            left = max(iteration.error, self._left_after(step, last))
             stagnates = iteration.error > 0.5 * before and step > 0.5 * last
             shrunk = iteration.size > _SHRUNK * np.ptp(u) and (np.ptp(u) or before == np.inf)
             converged = iteration.converged and iteration.tolerance == tolerance and not shrunk
             if wrong.any() or converged:
                 break
-            if stagnates and left <= _ACCEPTED_STAGNATION * np.ptp(u):
+            if stagnates and iteration.error <= _ACCEPTED_STAGNATION * np.ptp(u):
                 break
             if stagnates:
                 raise SolverError(
@@ -154,6 +153,14 @@ class LevelSolver(Search):
         self.remaining = left
         self.remaining_force = iteration.force_error + self._rounding_of_forces(iteration.d)
         return wrong
+
+    def _left_after(self, step, last):
+        """What corrections show to be left, as the last two shrink: cycles that feel little of a
+        soft part do not. One in the last bit of u shows nothing: u cannot take it up.
+        """
+        if last == np.inf or step <= EPS * largest(self.u):
+            return 0.0
+        return step * min(step / last, 1.0)
 
     def _rounding_of_forces(self, correction):
         """What the rounding of the last correction does to a force: in a stiff part one that is

@@ -47,14 +47,36 @@ def why_not(problem):
             if problem.coefficient is None
             else "the coefficient is not 1"
         )
-    if problem.element not in _ELIMINATIONS:
-        return f"it eliminates no rows of {problem.element}"
+    if reason := why_not_on(grid, problem.element):
+        return reason
+    return None if _is_of_sides(problem) else "contact or fixed dofs are not those of whole sides"
+
+
+def why_not_on(grid, element):
+    """The same of any problem on a grid with coefficient 1, whose dofs are those of its sides.
+
+    Parameters
+    ----------
+    grid : Grid
+    element : {"P1", "CR"}
+
+    Returns
+    -------
+    str or None
+
+    Examples
+    --------
+    >>> from signorini.mesh.grid import Grid
+    >>> labels = ("contact", "neumann", "dirichlet", "neumann")
+    >>> why_not_on(Grid(4, 1, (0.0, 0.0), (1.0, 1.0), "falling", labels), "P1")
+    'the grid is a single cell wide'
+    """
+    if element not in _ELIMINATIONS:
+        return f"it eliminates no rows of {element}"
     if len(grid.sides("contact")) > 1:
         return "more than one side is in contact"
     if min(grid.nx, grid.ny) < 2:
         return "the grid is a single cell wide"
-    if not _is_of_sides(problem):
-        return "the dofs in contact or fixed are not those of whole sides"
     return None if orient(grid) else "the two sides beside the contact side differ in kind"
 
 
